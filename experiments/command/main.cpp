@@ -1,0 +1,53 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <exception>
+
+#include "alea/core/error.hpp"
+#include "alea/core/version.hpp"
+#include "alea/io/atomic_file.hpp"
+#include "experiments/command/command.hpp"
+
+namespace {
+
+using namespace alea::command;
+
+// Ctrl-C ends at once: unfinished files go, finished ones are whole, since every file is renamed
+// into place.
+extern "C" void on_interrupt(int) {
+  alea::remove_unfinished_files();
+  ::_exit(exit_interrupted);
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"alea: registers laser scans by geometry that can be checked"};
+  app.set_version_flag("--version", std::string("alea ") + alea::version());
+  app.require_subcommand(1);
+  int exit_code = exit_done;
+  for (const AddSubcommand add : {add_info}) add(app, exit_code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? exit_done : exit_usage;
+  }
+  return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+  try {
+    return run(argc, argv);
+  } catch (const alea::Error& error) {
+    fmt::print(stderr, "alea: {}\n", error.what());
+    return error.kind() == alea::ErrorKind::usage ? exit_usage : exit_input;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "alea: internal error: {}; please report it with the command line\n",
+               error.what());
+    return exit_internal;
+  }
+}
