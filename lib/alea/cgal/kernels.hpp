@@ -3,8 +3,14 @@
 // For *_cgal.cpp files only: these headers cost seconds to compile.
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/version.h>
 
 #include <Eigen/Core>
+#if CGAL_VERSION_NR >= 1060000000
+#include <variant>
+#else
+#include <boost/variant.hpp>
+#endif
 
 #include "alea/core/plane.hpp"
 
@@ -22,6 +28,17 @@ inline Exact::Plane_3 to_exact(const Plane& plane) {
 inline Eigen::Vector3d to_double(const Exact::Point_3& p) {
   return {CGAL::to_double(p.x().exact()), CGAL::to_double(p.y().exact()),
           CGAL::to_double(p.z().exact())};
+}
+
+/// The alternative of type T that an intersection holds, or null. CGAL 5 returns boost::variant,
+/// CGAL 6 std::variant.
+template <typename T, typename Variant>
+const T* alternative(const Variant& variant) {
+#if CGAL_VERSION_NR >= 1060000000
+  return std::get_if<T>(&variant);
+#else
+  return boost::get<T>(&variant);
+#endif
 }
 
 }  // namespace alea

@@ -12,8 +12,8 @@ using Number = Exact::FT;
 std::optional<Exact::Point_3> common_point(const std::array<Exact::Plane_3, 3>& planes) {
   const auto meet = CGAL::intersection(planes[0], planes[1], planes[2]);
   if (!meet) return std::nullopt;
-  Exact::Point_3 point;
-  return CGAL::assign(point, CGAL::make_object(*meet)) ? std::optional(point) : std::nullopt;
+  const Exact::Point_3* point = alternative<Exact::Point_3>(*meet);
+  return point != nullptr ? std::optional(*point) : std::nullopt;
 }
 
 double half_width(const Number& number) {
