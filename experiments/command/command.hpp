@@ -14,6 +14,7 @@ namespace alea::command {
 /// The documented exit codes of the program.
 enum ExitCode {
   exit_done = 0,
+  exit_failed = 1,  ///< an acceptance experiment missed its limit
   exit_usage = 2,
   exit_input = 3,
   exit_refused = 4,
@@ -51,5 +52,6 @@ std::optional<std::array<double, 3>> parse_point(const std::string& option,
 using AddSubcommand = void (*)(CLI::App& app, int& exit_code);
 
 void add_info(CLI::App& app, int& exit_code);
+void add_acceptance(CLI::App& app, int& exit_code);
 
 }  // namespace alea::command
