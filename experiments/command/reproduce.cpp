@@ -24,8 +24,8 @@ int reproduce(const ReproduceOptions& options) {
   const ProgressCallback progress = make_progress(options.common);
   namespace fs = std::filesystem;
   const std::string folder = (fs::path(options.out) / "die").string();
-  const std::string report = experiments::die::reproduce_die(
-      {folder, options.smoke, options.common.seed, progress});
+  const std::string report =
+      experiments::die::reproduce_die({folder, options.smoke, options.common.seed, progress});
   fmt::print("{}\ntables and pictures: {}\n", report, fs::absolute(folder).string());
   return exit_done;
 }

@@ -45,7 +45,7 @@ void audit_discrepancy(const PublishedTables& tables, std::vector<Cell>& cells) 
 void audit_means(const PublishedTables& tables, std::vector<Cell>& cells) {
   struct Column {
     const char* name;
-    std::string PublishedCheckPlane::* field;
+    std::string PublishedCheckPlane::*field;
   };
   const std::array<Column, 3> columns{{{"uncalibrated", &PublishedCheckPlane::uncalibrated_mm},
                                        {"calibrated", &PublishedCheckPlane::calibrated_mm},
@@ -87,8 +87,9 @@ void audit_angles(const PublishedTables& tables, std::vector<Cell>& cells) {
     cells.push_back(statement("dataset " + master.dataset, "largest angle off 90", "deg", "<1", off,
                               off < 1 ? Verdict::agrees : Verdict::differs, ""));
     const bool one_die = apart <= 0.1 + 1e-9;
-    cells.push_back(statement("dataset " + master.dataset, "shared dihedral, scans apart by at least",
-                              "deg", "", apart, Verdict::ours,
+    cells.push_back(statement("dataset " + master.dataset,
+                              "shared dihedral, scans apart by at least", "deg", "", apart,
+                              Verdict::ours,
                               one_die ? "within the rounding of two printed angles"
                                       : "no rigid die of six planes has these angles"));
   }
@@ -128,8 +129,8 @@ void audit_ranges(const PublishedTables& tables, std::vector<Cell>& cells) {
 
 void audit_arithmetic(std::vector<Cell>& cells) {
   const double shift_cm = 500 * std::tan(0.5 * std::numbers::pi / 180);
-  cells.push_back(statement("0.5 deg at 5 m", "translation", "cm", "4.3", shift_cm,
-                            Verdict::agrees, "'roughly': cut off after the first decimal"));
+  cells.push_back(statement("0.5 deg at 5 m", "translation", "cm", "4.3", shift_cm, Verdict::agrees,
+                            "'roughly': cut off after the first decimal"));
   cells.push_back(statement("0.125 to 0.027 m3", "volume reduced by", "%", "40",
                             100 * (1 - 0.027 / 0.125), Verdict::differs,
                             "40 % is the side's reduction"));
@@ -138,8 +139,10 @@ void audit_arithmetic(std::vector<Cell>& cells) {
 }  // namespace
 
 ResultTable audit_published(const PublishedTables& tables) {
-  ResultTable audit{"audit", "The printed tables against the paper's own statements",
-                    "Computed from the printed numbers alone; nothing is simulated.", {}};
+  ResultTable audit{"audit",
+                    "The printed tables against the paper's own statements",
+                    "Computed from the printed numbers alone; nothing is simulated.",
+                    {}};
   audit_discrepancy(tables, audit.cells);
   audit_means(tables, audit.cells);
   audit_angles(tables, audit.cells);

@@ -8,8 +8,8 @@
 namespace alea::experiments::die {
 
 struct ReproductionOptions {
-  std::string out;       ///< folder of the results, made where it is missing
-  bool smoke = false;    ///< few dice, for minutes instead of an hour
+  std::string out;     ///< folder of the results, made where it is missing
+  bool smoke = false;  ///< few dice, for minutes instead of an hour
   std::uint64_t seed = 1;
   ProgressCallback progress;
 };

@@ -16,7 +16,7 @@ namespace {
 // Four significant digits, and never more than six decimals.
 std::string number(double value) {
   if (value == 0 || !std::isfinite(value)) return fmt::format("{}", value);
-  const int magnitude = static_cast<int>(std::floor(std::log10(std::abs(value))));
+  const int magnitude = static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-9));
   return fmt::format("{:.{}f}", value, std::clamp(3 - magnitude, 0, 6));
 }
 
@@ -28,9 +28,12 @@ std::string ours_text(const Cell& cell) {
 }
 
 std::array<std::string, 6> fields_of(const Cell& cell) {
-  return {cell.row,        cell.unit.empty() ? cell.column : cell.column + " (" + cell.unit + ")",
-          cell.printed,    ours_text(cell),
-          to_string(cell.verdict), cell.note};
+  return {cell.row,
+          cell.unit.empty() ? cell.column : cell.column + " (" + cell.unit + ")",
+          cell.printed,
+          ours_text(cell),
+          to_string(cell.verdict),
+          cell.note};
 }
 
 std::string latex_text(const std::string& text) {
@@ -45,7 +48,7 @@ std::string latex_text(const std::string& text) {
   return escaped;
 }
 
-const std::array<std::string, 6> headings{"row", "quantity", "printed", "ours [central 95 %]",
+const std::array<std::string, 6> headings{"row",     "quantity", "printed", "ours [central 95 %]",
                                           "verdict", "note"};
 
 }  // namespace
@@ -84,10 +87,9 @@ std::string as_text(const ResultTable& table) {
 std::string as_csv(const ResultTable& table) {
   std::string text = "row,column,unit,printed,ours_median,ours_low,ours_high,verdict,note\n";
   for (const Cell& cell : table.cells) {
-    const std::string ours =
-        cell.ours ? fmt::format("{:.9g},{:.9g},{:.9g}", cell.ours->median, cell.ours->low,
-                                cell.ours->high)
-                  : ",,";
+    const std::string ours = cell.ours ? fmt::format("{:.9g},{:.9g},{:.9g}", cell.ours->median,
+                                                     cell.ours->low, cell.ours->high)
+                                       : ",,";
     text += fmt::format("{},{},{},{},{},{},{}\n", csv_field(cell.row), csv_field(cell.column),
                         csv_field(cell.unit), csv_field(cell.printed), ours,
                         to_string(cell.verdict), csv_field(cell.note));

@@ -38,8 +38,8 @@ Interval interval_at_end(std::vector<PriorSample> samples, std::size_t datum, bo
 
 PrintedValue parse_printed(const std::string& text) {
   PrintedValue printed{text, 0, 0};
-  const auto [end, error] =
-      std::from_chars(text.data(), text.data() + text.size(), printed.value, std::chars_format::fixed);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), printed.value,
+                                            std::chars_format::fixed);
   if (error != std::errc{} || end != text.data() + text.size())
     throw input_error("'" + text + "' is no printed number");
   const auto point = text.find('.');
@@ -56,11 +56,16 @@ Interval central_interval(std::vector<double> values) {
 
 const char* to_string(Verdict verdict) {
   switch (verdict) {
-    case Verdict::agrees: return "agrees";
-    case Verdict::differs: return "differs";
-    case Verdict::undecidable: return "undecidable";
-    case Verdict::input: return "input";
-    case Verdict::ours: return "-";
+    case Verdict::agrees:
+      return "agrees";
+    case Verdict::differs:
+      return "differs";
+    case Verdict::undecidable:
+      return "undecidable";
+    case Verdict::input:
+      return "input";
+    case Verdict::ours:
+      return "-";
   }
   return "";
 }

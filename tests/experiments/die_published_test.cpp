@@ -12,9 +12,9 @@ TEST(PublishedTables, HoldEveryPrintedNumber) {
   EXPECT_EQ(tables.scans.size(), 8u);
   EXPECT_EQ(tables.check_planes.size(), 16u);
   EXPECT_EQ(tables.dice.size(), 8u);
-  const auto printed = std::count_if(
-      tables.check_planes.begin(), tables.check_planes.end(),
-      [](const PublishedCheckPlane& plane) { return !plane.calibrated_mm.empty(); });
+  const auto printed =
+      std::count_if(tables.check_planes.begin(), tables.check_planes.end(),
+                    [](const PublishedCheckPlane& plane) { return !plane.calibrated_mm.empty(); });
   EXPECT_EQ(printed, 10);
   EXPECT_EQ(tables.scans[2].points, "100215");
   EXPECT_EQ(tables.scans[5].pips, (std::vector<int>{1, 3, 5}));
@@ -35,9 +35,8 @@ TEST(Audit, FindsTheContradictionsOfThePrint) {
   EXPECT_NEAR(discrepancy.ours->median, 0.8, 1e-9);
   EXPECT_EQ(discrepancy.note, "printed at A-3");
   EXPECT_EQ(cell_of(audit, "dataset C", "largest angle off 90").verdict, Verdict::differs);
-  EXPECT_NEAR(
-      cell_of(audit, "dataset B", "shared dihedral, scans apart by at least").ours->median, 0.6,
-      1e-9);
+  EXPECT_NEAR(cell_of(audit, "dataset B", "shared dihedral, scans apart by at least").ours->median,
+              0.6, 1e-9);
   EXPECT_NO_THROW(cell_of(audit, "C-1 and D-1", "angles that repeat"));
   EXPECT_NEAR(cell_of(audit, "0.125 to 0.027 m3", "volume reduced by").ours->median, 78.4, 1e-9);
   EXPECT_NEAR(cell_of(audit, "vertical planes", "mean RMSE, calibrated").ours->median, 2.18, 1e-9);

@@ -30,7 +30,8 @@ std::vector<PriorSample> samples_following_the_height(double spread) {
   std::vector<PriorSample> samples;
   for (int i = 0; i < 300; ++i) {
     const double height = i / 299.0;
-    samples.push_back({1 + height + spread * ((i * 7) % 10 - 4.5), {height, (i * 37) % 300 / 299.0}});
+    samples.push_back(
+        {1 + height + spread * ((i * 7) % 10 - 4.5), {height, (i * 37) % 300 / 299.0}});
   }
   return samples;
 }
@@ -50,8 +51,7 @@ TEST(Judge, AValueThatMeetsTheIntervalAgrees) {
 }
 
 TEST(Judge, ADatumThatMovesTheIntervalAcrossTheValueLeavesItUndecidable) {
-  const Judgement across =
-      judge(parse_printed("1.50"), samples_following_the_height(0.001), names);
+  const Judgement across = judge(parse_printed("1.50"), samples_following_the_height(0.001), names);
   EXPECT_EQ(across.verdict, Verdict::undecidable);
   EXPECT_EQ(across.datum, "scanner height");
   EXPECT_EQ(judge(parse_printed("3.0"), samples_following_the_height(0.001), names).verdict,
