@@ -1,0 +1,60 @@
+#include "alea/die/facet_image.hpp"
+
+#include <Eigen/LU>
+
+#include "alea/core/error.hpp"
+
+namespace alea {
+namespace {
+
+/// The direction of edge j away from the corner, along the die: inside facet j's plane's halfspace.
+Eigen::Vector3d away_from_corner(const Plane& other_facet, const Line& edge) {
+  return other_facet.normal.dot(edge.direction) > 0 ? Eigen::Vector3d(-edge.direction)
+                                                    : edge.direction;
+}
+
+Eigen::Vector2d view_slope(const FacetImageInput& image, const Plane& plane,
+                           const Eigen::Vector3d& corner_m, const Eigen::Matrix<double, 3, 2>& axes,
+                           const Eigen::Vector3d& scanner_position) {
+  const Eigen::Vector3d centre =
+      corner_m + axes * Eigen::Vector2d(image.edge_u_m / 2, image.edge_v_m / 2);
+  const Eigen::Vector3d ray = (centre - scanner_position).normalized();
+  const double cosine = std::abs(plane.normal.dot(ray));
+  const double steepest = 1e-3;  // beyond 89.94 deg nothing is seen anyway
+  return axes.transpose() * ray / std::max(cosine, steepest);
+}
+
+}  // namespace
+
+std::array<FacetImageInput, 3> facet_images(
+    const Cloud& cloud, const std::array<std::span<const std::uint32_t>, 3>& indices,
+    const std::array<Plane, 3>& planes, const CornerAssembly& corner,
+    const std::array<double, 3>& edges_m) {
+  if (!cloud.has_intensity())
+    throw input_error("the scan has no intensity, which the pips need: export it with intensity");
+  std::array<FacetImageInput, 3> images;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t along_u = (k + 1) % 3, along_v = (k + 2) % 3;
+    Eigen::Matrix<double, 3, 2> axes;
+    axes.col(0) = away_from_corner(planes[along_u], corner.edges[along_u]);
+    axes.col(1) = away_from_corner(planes[along_v], corner.edges[along_v]);
+    const Eigen::Matrix<double, 2, 3> uv_from_xyz =
+        (axes.transpose() * axes).inverse() * axes.transpose();
+
+    FacetImageInput& image = images[k];
+    image.edge_u_m = edges_m[along_u];
+    image.edge_v_m = edges_m[along_v];
+    image.uv_m.reserve(indices[k].size());
+    image.intensity.reserve(indices[k].size());
+    for (const std::uint32_t i : indices[k]) {
+      image.uv_m.emplace_back(uv_from_xyz * (cloud.positions[i] - corner.corner_m));
+      image.intensity.push_back(cloud.intensity[i]);
+    }
+    if (cloud.scanner_position)
+      image.view_slope =
+          view_slope(image, planes[k], corner.corner_m, axes, *cloud.scanner_position);
+  }
+  return images;
+}
+
+}  // namespace alea
