@@ -1,0 +1,96 @@
+#include "alea/simulate/ray_caster.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "alea/simulate/die_ray.hpp"
+#include "alea/simulate/primitive_ray.hpp"
+#include "alea/simulate/window.hpp"
+
+namespace alea {
+namespace {
+
+struct Cells {
+  std::int64_t first;
+  std::int64_t last;  ///< included
+};
+
+/// The cells of a grid whose angle lies in [low, high].
+Cells cells_within(const AngleRange& range, double low_rad, double high_rad) {
+  const auto count = static_cast<double>(range.count());
+  const double first = std::ceil((low_rad - range.start_rad) / range.step_rad);
+  const double last = std::floor((high_rad - range.start_rad) / range.step_rad);
+  return {static_cast<std::int64_t>(std::clamp(first, 0.0, count)),
+          static_cast<std::int64_t>(std::clamp(last, -1.0, count - 1))};
+}
+
+}  // namespace
+
+template <typename Object>
+void RayCaster::add(SurfaceKind kind, const std::vector<Object>& objects, const Station& station) {
+  const RigidTransform scan_from_scene = station.scene_from_scan.inverse();
+  const Scanner& scanner = station.scanner;
+  const double margin_rad = 8 * scanner.noise.angular_noise_rad + scanner.beam_divergence_rad / 2;
+  for (std::uint32_t i = 0; i < objects.size(); ++i) {
+    const BoundingBall ball = bounding_ball(objects[i]);
+    const AngularWindow window = angular_window(
+        scan_from_scene * ball.centre_m, ball.radius_m + scanner.beam_diameter_m / 2, margin_rad);
+    const Cells rows = cells_within(station.elevation, window.low_rad, window.high_rad);
+    if (rows.first > rows.last) continue;
+    // A grid may cross the cut at +-180 deg: try the window one turn to either side as well.
+    const bool all_around = window.half_width_rad >= std::numbers::pi;
+    for (int turn = all_around ? 0 : -1; turn <= (all_around ? 0 : 1); ++turn) {
+      const double middle = window.azimuth_rad + 2 * std::numbers::pi * turn;
+      const double low = middle - window.half_width_rad, high = middle + window.half_width_rad;
+      const Cells columns = all_around
+                                ? Cells{0, static_cast<std::int64_t>(station.azimuth.count()) - 1}
+                                : cells_within(station.azimuth, low, high);
+      if (columns.first > columns.last) continue;
+      windows_.push_back({{kind, i, columns.first, columns.last}, rows.first, rows.last});
+    }
+  }
+}
+
+RayCaster::RayCaster(const Scene& scene, const Station& station) : scene_(scene) {
+  add(SurfaceKind::die, scene.dice, station);
+  add(SurfaceKind::patch, scene.patches, station);
+  add(SurfaceKind::box, scene.boxes, station);
+  add(SurfaceKind::cylinder, scene.cylinders, station);
+  add(SurfaceKind::sphere, scene.spheres, station);
+}
+
+std::vector<Candidate> RayCaster::candidates(std::int64_t row) const {
+  std::vector<Candidate> found;
+  for (const RowWindow& window : windows_)
+    if (row >= window.first_row && row <= window.last_row) found.push_back(window.candidate);
+  return found;
+}
+
+Hit RayCaster::cast(const std::vector<Candidate>& candidates, std::int64_t column,
+                    const Ray& ray) const {
+  Hit hit;
+  for (const Candidate& c : candidates) {
+    if (column < c.first_column || column > c.last_column) continue;
+    switch (c.kind) {
+      case SurfaceKind::die:
+        intersect(scene_.dice[c.index], c.index, ray, hit);
+        break;
+      case SurfaceKind::patch:
+        intersect(scene_.patches[c.index], c.index, ray, hit);
+        break;
+      case SurfaceKind::box:
+        intersect(scene_.boxes[c.index], c.index, ray, hit);
+        break;
+      case SurfaceKind::cylinder:
+        intersect(scene_.cylinders[c.index], c.index, ray, hit);
+        break;
+      case SurfaceKind::sphere:
+        intersect(scene_.spheres[c.index], c.index, ray, hit);
+        break;
+    }
+  }
+  return hit;
+}
+
+}  // namespace alea

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "alea/simulate/ray.hpp"
+#include "alea/simulate/scene.hpp"
+
+namespace alea {
+
+/// An object and the columns of the grid in which a ray may meet it.
+struct Candidate {
+  SurfaceKind kind;
+  std::uint32_t index;
+  std::int64_t first_column;
+  std::int64_t last_column;  ///< included
+};
+
+/// Finds the nearest surface along the rays of one station. Each object is tried only in the window
+/// of the grid that its bounding ball covers, widened by the beam and its pointing noise.
+class RayCaster {
+ public:
+  RayCaster(const Scene& scene, const Station& station);
+
+  /// The objects that a ray of this row may meet.
+  std::vector<Candidate> candidates(std::int64_t row) const;
+  /// The nearest hit of a ray that belongs to `column`; infinite range where there is none.
+  Hit cast(const std::vector<Candidate>& candidates, std::int64_t column, const Ray& ray) const;
+
+ private:
+  struct RowWindow {
+    Candidate candidate;
+    std::int64_t first_row;
+    std::int64_t last_row;
+  };
+  template <typename Object>
+  void add(SurfaceKind kind, const std::vector<Object>& objects, const Station& station);
+
+  const Scene& scene_;
+  std::vector<RowWindow> windows_;
+};
+
+}  // namespace alea
