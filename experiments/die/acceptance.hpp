@@ -10,4 +10,10 @@ namespace alea::acceptance {
 /// and one line in acceptance.cpp.
 std::vector<Topic> die_topics();
 
+/// Issue die, line 3: K, L and P of the study's section 5 against fisher_bound; n has no meaning.
+void run_bound_tables(const Options& options, const Report& report);
+/// Issue bound, lines 2 and 3.
+void run_bound_ranges(const Options& options, const Report& report);
+void run_bound_ranks(const Options& options, const Report& report);
+
 }  // namespace alea::acceptance
