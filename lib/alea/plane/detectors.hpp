@@ -1,0 +1,10 @@
+#pragma once
+
+#include "alea/plane/plane_detector.hpp"
+
+namespace alea {
+
+/// The detectors behind detect_planes; options are valid when they are called.
+std::vector<PlaneRegion> detect_by_cells(const Cloud& cloud, const PlaneDetectionOptions& options);
+
+}  // namespace alea
