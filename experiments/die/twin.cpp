@@ -59,8 +59,8 @@ Die draw_die(const Twin& twin, const TwinPrior& prior, std::uint64_t seed, std::
              std::uint64_t trial) {
   DieModel model;
   model.size_m = Eigen::Vector3d::Constant(twin.true_edge_m);
-  model = with_random_shape(model, {prior.tilt_sd_rad, prior.offset_sd_m, 0}, seed, experiment,
-                            trial);
+  model =
+      with_random_shape(model, {prior.tilt_sd_rad, prior.offset_sd_m, 0}, seed, experiment, trial);
   model.scene_from_die = standing_pose(model, twin.top, twin.side);
   Die die = build_die(model);
   for (int i = 0; i < 4; ++i) {
@@ -89,7 +89,9 @@ Twin draw_twin(const PublishedTables& tables, const std::string& dataset, const 
   const std::vector<PublishedScan> scans = scans_of(tables, dataset);
   const auto experiment = static_cast<std::uint32_t>(dataset.front());
   RandomStream stream({seed, experiment, trial, 0, Purpose::station});
-  const auto between = [&](double low, double high) { return std::lerp(low, high, stream.uniform()); };
+  const auto between = [&](double low, double high) {
+    return std::lerp(low, high, stream.uniform());
+  };
 
   Twin twin;
   twin.dataset = dataset;
@@ -112,8 +114,8 @@ Twin draw_twin(const PublishedTables& tables, const std::string& dataset, const 
     twin.azimuth_rad[scan] = between(-prior.azimuth_half_range_rad, prior.azimuth_half_range_rad);
     const double azimuth = (scan == 0 ? turn : -turn) * (pi / 4 + twin.azimuth_rad[scan]);
     const double rise_m = twin.scanner_height_m - target.z();
-    const double floor_m = std::sqrt(scans[scan].scanner_to_die_m * scans[scan].scanner_to_die_m -
-                                     rise_m * rise_m);
+    const double floor_m =
+        std::sqrt(scans[scan].scanner_to_die_m * scans[scan].scanner_to_die_m - rise_m * rise_m);
     const Eigen::Vector3d place(floor_m * std::cos(azimuth), floor_m * std::sin(azimuth),
                                 twin.scanner_height_m);
     twin.scene_from_scan[scan] = levelled_pose(place, between(-pi, pi));

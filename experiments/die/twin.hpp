@@ -21,7 +21,8 @@ struct TwinPrior {
   std::array<double, 2> wall_height_m{0.5, 2.0};  ///< of the centre of a vertical plane
   double max_incidence_rad = 1.13;                ///< at a vertical plane, both stations (65 deg)
   std::array<double, 2> noise_scale{0.7, 1.3};    ///< of the noise model, each plane its own
-  std::array<double, 2> unprinted_distance{0.6, 1.4};  ///< of its neighbour's, where none is printed
+  std::array<double, 2> unprinted_distance{0.6,
+                                           1.4};  ///< of its neighbour's, where none is printed
   double sphere_ring_m = 4;
 };
 
@@ -39,10 +40,10 @@ struct TwinPlane {
 struct Twin {
   std::string dataset;
   Die die;
-  int top = 0, side = 0;                   ///< pips of the shared facets; the top looks up
-  int master_facet = 0, slave_facet = 0;   ///< pips of the facets that one scan alone sees
+  int top = 0, side = 0;                          ///< pips of the shared facets; the top looks up
+  int master_facet = 0, slave_facet = 0;          ///< pips of the facets that one scan alone sees
   std::array<RigidTransform, 2> scene_from_scan;  ///< master, slave
-  std::array<double, 2> step_rad{};        ///< that gives Table 1's point counts on the die
+  std::array<double, 2> step_rad{};               ///< that gives Table 1's point counts on the die
   double nominal_edge_m = 0;
   double true_edge_m = 0;  ///< Table 6's value, corner to corner along the shared edge
   Eigen::Vector3d edge_direction = Eigen::Vector3d::UnitY();  ///< scene frame

@@ -16,8 +16,8 @@ double between(RandomStream& stream, const std::array<double, 2>& bounds) {
 }
 
 // A square about `centre_m`, seen from both sides.
-Patch square(const std::string& name, const Eigen::Vector3d& centre_m, const Eigen::Vector3d& normal,
-             double side_m, PatchRole role) {
+Patch square(const std::string& name, const Eigen::Vector3d& centre_m,
+             const Eigen::Vector3d& normal, double side_m, PatchRole role) {
   const Eigen::Matrix<double, 3, 2> tangent = tangent_basis(normal);
   Patch patch;
   patch.id = name;
@@ -32,8 +32,8 @@ double largest_incidence_rad(const Twin& twin, const Eigen::Vector3d& centre_m,
                              const Eigen::Vector3d& normal) {
   double least_cosine = 1;
   for (const RigidTransform& scan : twin.scene_from_scan)
-    least_cosine = std::min(
-        least_cosine, std::abs(normal.dot((scan.translation - centre_m).normalized())));
+    least_cosine =
+        std::min(least_cosine, std::abs(normal.dot((scan.translation - centre_m).normalized())));
   // Both stations must see the same side.
   const double sides = normal.dot(twin.scene_from_scan[0].translation - centre_m) *
                        normal.dot(twin.scene_from_scan[1].translation - centre_m);
@@ -67,11 +67,11 @@ Eigen::Vector3d place_by_distances(const Twin& twin, double die_m, double statio
   const auto on_floor = [](double slant, double rise) {
     return std::sqrt(std::max(0.0, slant * slant - rise * rise));
   };
-  const double a = on_floor(die_m, z - twin.true_edge_m / 2), b = on_floor(station_m, z - master.z());
+  const double a = on_floor(die_m, z - twin.true_edge_m / 2),
+               b = on_floor(station_m, z - master.z());
   const double c = master.head<2>().norm();
   const double cosine = a > 0 ? std::clamp((a * a + c * c - b * b) / (2 * a * c), -1.0, 1.0) : 1.0;
-  const double angle =
-      std::atan2(master.y(), master.x()) + (left ? 1 : -1) * std::acos(cosine);
+  const double angle = std::atan2(master.y(), master.x()) + (left ? 1 : -1) * std::acos(cosine);
   return {a * std::cos(angle), a * std::sin(angle), z};
 }
 
