@@ -26,7 +26,13 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", std::string("alea ") + alea::version());
   app.require_subcommand(1);
   int exit_code = exit_done;
-  for (const AddSubcommand add : {add_info, add_acceptance, add_reproduce}) add(app, exit_code);
+  for (const AddSubcommand add : {
+           add_info,
+           add_convert,
+           add_acceptance,
+           add_reproduce,
+       })
+    add(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

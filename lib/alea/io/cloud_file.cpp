@@ -1,0 +1,89 @@
+#include "alea/io/cloud_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <filesystem>
+
+#include "alea/core/error.hpp"
+#include "alea/io/formats.hpp"
+
+namespace alea {
+namespace {
+
+struct Source {
+  std::string path;
+  std::size_t scan = 0;  ///< counted from one; 0 for all
+};
+
+// "file.e57#2" is scan 2, unless a file of exactly this name exists.
+Source parse_source(const std::string& path) {
+  const auto mark = path.rfind('#');
+  std::error_code ignored;
+  if (mark == std::string::npos || std::filesystem::exists(path, ignored)) return {path};
+  Source source{path.substr(0, mark)};
+  const char* const end = path.data() + path.size();
+  const auto [next, error] = std::from_chars(path.data() + mark + 1, end, source.scan);
+  if (error != std::errc{} || next != end || source.scan == 0) return {path};
+  return source;
+}
+
+std::string extension_of(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension.empty() ? extension : extension.substr(1);
+}
+
+bool is_text(const std::string& extension) {
+  return extension == "xyz" || extension == "txt" || extension == "csv" || extension == "asc";
+}
+
+std::vector<ScanFile> read_format(const InputFile& file, const ReadOptions& options) {
+  const std::string_view bytes = file.bytes();
+  const std::string extension = extension_of(file.path());
+  if (bytes.starts_with("ply") || extension == "ply") return {read_ply(file, options)};
+  if (bytes.starts_with("# .PCD") || bytes.starts_with("VERSION") || extension == "pcd")
+    return {read_pcd(file, options)};
+  if (is_text(extension)) return {read_xyz(file, options)};
+  throw input_error(fmt::format("{}: unknown format '{}'; expected ply, pcd, xyz, txt, csv or asc",
+                                file.path(), extension));
+}
+
+}  // namespace
+
+std::vector<ScanFile> read_scans(const std::string& path, const ReadOptions& options) {
+  const Source source = parse_source(path);
+  const InputFile file(source.path);
+  std::vector<ScanFile> scans = read_format(file, options);
+  file.check_unchanged();
+  if (source.scan == 0) return scans;
+  if (source.scan > scans.size())
+    throw input_error(fmt::format("{}: scan {} of {}; the number after # counts from 1",
+                                  source.path, source.scan, scans.size()));
+  return {std::move(scans[source.scan - 1])};
+}
+
+Cloud read_cloud(const std::string& path, const ReadOptions& options) {
+  return merged_scans(read_scans(path, options), options);
+}
+
+void write_cloud(const std::string& path, const Cloud& cloud) {
+  const std::string extension = extension_of(path);
+  if (extension == "ply") return write_ply(path, cloud);
+  if (extension == "pcd") return write_pcd(path, cloud);
+  if (is_text(extension)) return write_xyz(path, cloud, extension == "csv" ? ',' : ' ');
+  throw input_error(
+      fmt::format("{}: cannot write format '{}'; expected ply, pcd, xyz, txt, csv or "
+                  "asc",
+                  path, extension));
+}
+
+void write_scans(const std::string& path, const std::vector<ScanFile>& scans,
+                 const ReadOptions& options) {
+  write_cloud(path, merged_scans(scans, options));
+}
+
+}  // namespace alea

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "alea/core/cloud.hpp"
+
+namespace alea {
+
+enum class ScalarType {
+  int8,
+  uint8,
+  int16,
+  uint16,
+  int32,
+  uint32,
+  int64,
+  uint64,
+  float32,
+  float64
+};
+
+/// Bytes of one value.
+std::size_t size_of(ScalarType type);
+
+/// One field of fixed-size records: element i lies at offset + i * stride.
+struct RecordColumn {
+  std::string name;
+  ScalarType type = ScalarType::float32;
+  std::size_t offset = 0;
+  std::size_t stride = 0;
+};
+
+/// Fixed-size binary records, e.g. the vertices of a binary PLY.
+struct RecordTable {
+  std::vector<RecordColumn> columns;
+  bool big_endian = false;
+};
+
+/// Copies records [begin, end) of `bytes` into the cloud's arrays from index `at` on, each field to
+/// where its name's role says; fields without a role or without an array are skipped. Integer
+/// colours of 8 bits are widened (v * 257), float colours are taken as 0 to 1. The caller has
+/// checked that the records lie inside `bytes`.
+void copy_records(const RecordTable& table, std::string_view bytes, Cloud& cloud, std::size_t at,
+                  std::size_t begin, std::size_t end);
+
+}  // namespace alea

@@ -1,0 +1,218 @@
+#include "alea/io/text_columns.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <exception>
+
+#include "alea/core/error.hpp"
+#include "alea/core/parallel.hpp"
+#include "alea/io/text_lines.hpp"
+
+namespace alea {
+namespace {
+
+constexpr std::size_t chunk_bytes = std::size_t{1} << 18;
+constexpr std::size_t batch_bytes = std::size_t{1} << 26;
+
+bool is_data(const TextTable& table, std::string_view line) {
+  const auto first = line.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return false;
+  if (!table.comments) return true;
+  return line[first] != '#' && line.substr(first, 2) != "//";
+}
+
+struct Chunk {
+  std::string_view text;
+  std::size_t lines = 0;
+  std::size_t points = 0;
+  std::size_t first_line = 0;
+};
+
+// Cuts text at line ends into pieces of about chunk_bytes.
+std::vector<Chunk> cut(std::string_view text) {
+  std::vector<Chunk> chunks;
+  while (!text.empty()) {
+    std::size_t size = std::min(text.size(), chunk_bytes);
+    if (size < text.size()) {
+      const auto end = text.find('\n', size - 1);
+      size = end == std::string_view::npos ? text.size() : end + 1;
+    }
+    chunks.push_back({text.substr(0, size)});
+    text.remove_prefix(size);
+  }
+  return chunks;
+}
+
+void count_lines(const TextTable& table, Chunk& chunk) {
+  for (std::size_t at = 0; at < chunk.text.size();) {
+    const TextLine line = line_at(chunk.text, at);
+    ++chunk.lines;
+    if (is_data(table, line.text)) ++chunk.points;
+    at = line.next;
+  }
+}
+
+class LineParser {
+ public:
+  LineParser(const TextTable& table, const TextPlace& place, Cloud& cloud)
+      : table_(table), place_(place), cloud_(cloud) {
+    for (const std::string& name : table.names) roles_.push_back(role_of(name));
+  }
+
+  void parse(std::string_view line, std::size_t number, std::size_t point) const {
+    const char* at = line.data();
+    const char* const end = at + line.size();
+    for (std::size_t c = 0; c < roles_.size(); ++c) {
+      const bool list = c < table_.lists.size() && table_.lists[c];
+      const double value = next_value(at, end, number, c);
+      if (list) {
+        for (double i = 0; i < value; ++i) next_value(at, end, number, c);
+      } else if (roles_[c]) {
+        store(*roles_[c], c, value, point);
+      }
+    }
+    while (at != end && is_separator(*at)) ++at;
+    if (at != end)
+      throw input_error(fmt::format("{}: line {}: more than the {} values expected", place_.path,
+                                    number, roles_.size()));
+  }
+
+ private:
+  double next_value(const char*& at, const char* end, std::size_t number, std::size_t c) const {
+    while (at != end && is_separator(*at)) ++at;
+    if (at == end)
+      throw input_error(fmt::format("{}: line {}: {} values, expected {}", place_.path, number, c,
+                                    roles_.size()));
+    if (*at == '+') ++at;
+    double value = 0;
+    const auto [next, error] = std::from_chars(at, end, value);
+    const bool ended = next == end || is_separator(*next);
+    if (error == std::errc::result_out_of_range && ended) {
+      value = std::nan("");
+    } else if (error != std::errc{} || !ended) {
+      const std::string word(at, std::find_if(at, end, is_separator));
+      throw input_error(fmt::format("{}: line {}: '{}' is not a number (column {})", place_.path,
+                                    number, word.substr(0, 40), c + 1));
+    }
+    at = next;
+    return value;
+  }
+
+  void store(FieldRole role, std::size_t c, double value, std::size_t i) const {
+    using enum FieldRole;
+    const auto axis = static_cast<int>(role);
+    if (role <= z) {
+      cloud_.positions[i][axis] = value;
+    } else if (role == intensity) {
+      cloud_.intensity[i] = static_cast<float>(value);
+    } else if (role <= blue) {
+      if (!cloud_.colours.empty()) cloud_.colours[i][axis - static_cast<int>(red)] = colour(value);
+    } else if (role == rgb) {
+      const bool as_float = c < table_.packed_float.size() && table_.packed_float[c];
+      cloud_.colours[i] = unpacked(as_float, value);
+    } else if (role <= nz) {
+      if (!cloud_.normals.empty())
+        cloud_.normals[i][axis - static_cast<int>(nx)] = static_cast<float>(value);
+    } else if (!cloud_.rows.empty()) {
+      const int index = std::abs(value) < 2e9 ? static_cast<int>(value) : -1;
+      (role == row ? cloud_.rows : cloud_.columns)[i] = index;
+    }
+  }
+
+  std::uint16_t colour(double value) const {
+    const double top = table_.float_colours ? 1 : table_.byte_colours ? 255 : 65535;
+    const double clamped = std::isfinite(value) ? std::clamp(value, 0.0, top) : 0;
+    return static_cast<std::uint16_t>(std::lround(clamped * (65535 / top)));
+  }
+
+  static Colour unpacked(bool as_float, double value) {
+    if (!std::isfinite(value) || std::abs(value) > 4294967295.0) return {};
+    return unpacked_colour(as_float ? std::bit_cast<std::uint32_t>(static_cast<float>(value))
+                                    : static_cast<std::uint32_t>(static_cast<std::int64_t>(value)));
+  }
+
+  const TextTable& table_;
+  const TextPlace& place_;
+  Cloud& cloud_;
+  std::vector<std::optional<FieldRole>> roles_;
+};
+
+DroppedPoints parse_chunk(const LineParser& parser, const TextTable& table, const Chunk& chunk,
+                          Cloud& cloud, std::size_t at) {
+  DroppedPoints dropped;
+  std::size_t number = chunk.first_line;
+  std::size_t offset = 0;
+  for (std::size_t point = 0; point < chunk.points; ++number) {
+    const TextLine line = line_at(chunk.text, offset);
+    offset = line.next;
+    if (!is_data(table, line.text)) continue;
+    Eigen::Vector3d& position = cloud.positions[at + point];
+    parser.parse(line.text, number, at + point++);
+    if (!table.zero_is_missing || !position.isZero(0)) continue;
+    position.x() = std::nan("");
+    ++dropped.missing;
+  }
+  return dropped;
+}
+
+// The error of the first bad line is thrown, whichever thread met one first.
+void parse_batch(const TextTable& table, const TextPlace& place, const std::vector<Chunk>& chunks,
+                 CloudSink& sink) {
+  std::vector<std::size_t> sizes;
+  for (const Chunk& chunk : chunks) sizes.push_back(chunk.points);
+  std::vector<std::exception_ptr> errors(chunks.size());
+  sink.append_pieces(sizes, [&](Cloud& cloud, std::size_t at, std::size_t piece) {
+    try {
+      const LineParser parser(table, place, cloud);
+      return parse_chunk(parser, table, chunks[piece], cloud, at);
+    } catch (const Error&) {
+      errors[piece] = std::current_exception();
+      return DroppedPoints{};
+    }
+  });
+  for (const std::exception_ptr& error : errors)
+    if (error) std::rethrow_exception(error);
+}
+
+}  // namespace
+
+void widen_byte_colours(Cloud& cloud) {
+  for (const Colour& colour : cloud.colours)
+    if (*std::max_element(colour.begin(), colour.end()) > 255) return;
+  for (Colour& colour : cloud.colours)
+    for (std::uint16_t& value : colour) value = static_cast<std::uint16_t>(value * 257);
+}
+
+std::size_t read_text_table(const TextTable& table, std::string_view text, const TextPlace& place,
+                            std::size_t limit, CloudSink& sink,
+                            const std::function<void(std::size_t)>& release) {
+  std::size_t done = 0;
+  std::size_t line = place.first_line;
+  for (std::size_t offset = 0; offset < text.size() && done < limit;) {
+    std::string_view batch = text.substr(offset, batch_bytes);
+    if (offset + batch.size() < text.size()) {
+      const TextLine last = line_at(text, offset + batch.size() - 1);
+      batch = text.substr(offset, last.next - offset);
+    }
+    std::vector<Chunk> chunks = cut(batch);
+    parallel_chunks(chunks.size(), 1,
+                    [&](std::size_t c, std::size_t) { count_lines(table, chunks[c]); });
+    for (Chunk& chunk : chunks) {
+      chunk.first_line = line;
+      chunk.points = std::min(chunk.points, limit - done);
+      line += chunk.lines;
+      done += chunk.points;
+    }
+    parse_batch(table, place, chunks, sink);
+    offset += batch.size();
+    if (release) release(offset);
+  }
+  return done;
+}
+
+}  // namespace alea

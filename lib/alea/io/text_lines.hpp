@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace alea {
+
+/// True for what separates the values of a text table: blank, tab, comma, semicolon (and a carriage
+/// return).
+inline bool is_separator(char c) {
+  return c == ' ' || c == ',' || c == '\t' || c == ';' || c == '\r';
+}
+
+/// The line that starts at `offset`, without its end, and the offset of the next one.
+struct TextLine {
+  std::string_view text;
+  std::size_t next;
+};
+TextLine line_at(std::string_view text, std::size_t offset);
+
+/// The values of a line, split at blanks, tabs, commas or semicolons.
+std::vector<std::string_view> split_values(std::string_view line);
+
+/// A whole word as a number (a leading + is allowed); empty where it is none.
+std::optional<double> parse_number(std::string_view word);
+
+}  // namespace alea
