@@ -69,12 +69,15 @@ TEST_P(TwinOf, PlacesTheCheckPlanesAtTheirPrintedDistancesWhereTheyCanMeet) {
       EXPECT_EQ(plane.name, row.plane);
       EXPECT_EQ(plane.vertical, row.vertical);
       if (!row.distance_die_m) continue;
+      // The print of these breaks the triangle's inequality.
+      const bool printed_apart = std::set<std::string>{"A-1", "A-3", "B-3"}.contains(row.plane);
       const Eigen::Vector3d centre = centre_of(plane.patch);
       EXPECT_NEAR((centre - Eigen::Vector3d(0, 0, twin.true_edge_m / 2)).norm(),
                   *row.distance_die_m, 0.02);
       // and B-3 break the triangle's inequality in print.
       EXPECT_NEAR((centre - twin.scene_from_scan[0].translation).norm(), *row.distance_station1_m,
-                  0.55);
+                  printed_apart ? 0.9 : 0.35)
+          << row.plane;
     }
   }
 }
