@@ -55,7 +55,9 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
 
 void write_json(const CommonOptions& options, const nlohmann::json& result) {
   if (options.json.empty()) return;
-  const std::string text = result.dump(2) + "\n";
+  // Names out of a damaged file need not be UTF-8.
+  const std::string text =
+      result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   if (options.json != "-") {
     write_file_atomically(options.json, text);
     return;

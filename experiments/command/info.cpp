@@ -54,7 +54,9 @@ nlohmann::json scanner_positions(const std::vector<ScanFile>& scans, bool applie
 }
 
 void print(const Info& info, const nlohmann::json& result) {
-  const auto text = [&](const char* key) { return result.at(key).dump(); };
+  const auto text = [&](const char* key) {
+    return result.at(key).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  };
   fmt::print("{}\n", info.path);
   fmt::print("points            {}\n", text("points"));
   fmt::print("dropped           {}\n", text("dropped"));

@@ -41,15 +41,36 @@ bool is_text(const std::string& extension) {
   return extension == "xyz" || extension == "txt" || extension == "csv" || extension == "asc";
 }
 
+// Formats that are known and not read, with what to do about it.
+void refuse_known(const InputFile& file, const std::string& extension) {
+  const std::string_view bytes = file.bytes();
+  const auto refuse = [&](const char* format, const char* advice) {
+    throw input_error(fmt::format("{}: {} is not read; {}", file.path(), format, advice));
+  };
+  if (extension == "laz") refuse("LAZ (compressed LAS)", "decompress it to LAS first");
+  if (bytes.starts_with("OFF") || bytes.starts_with("COFF") || extension == "off")
+    refuse("OFF (a mesh)", "export the points as PLY");
+  if (bytes.starts_with("# vtk") || extension == "vtk" || extension == "vtp")
+    refuse("VTK", "export the points as PLY");
+  if (extension == "obj") refuse("OBJ (a mesh)", "export the points as PLY");
+}
+
 std::vector<ScanFile> read_format(const InputFile& file, const ReadOptions& options) {
   const std::string_view bytes = file.bytes();
   const std::string extension = extension_of(file.path());
+  refuse_known(file, extension);
+  if (bytes.starts_with("ASTM-E57") || extension == "e57") return read_e57(file, options);
+  if (bytes.starts_with("LASF") || extension == "las") return {read_las(file, options)};
   if (bytes.starts_with("ply") || extension == "ply") return {read_ply(file, options)};
   if (bytes.starts_with("# .PCD") || bytes.starts_with("VERSION") || extension == "pcd")
     return {read_pcd(file, options)};
+  if (extension == "ptx") return read_ptx(file, options);
+  if (extension == "pts") return read_pts(file, options);
   if (is_text(extension)) return {read_xyz(file, options)};
-  throw input_error(fmt::format("{}: unknown format '{}'; expected ply, pcd, xyz, txt, csv or asc",
-                                file.path(), extension));
+  throw input_error(fmt::format(
+      "{}: unknown format '{}'; expected ply, pcd, xyz, txt, csv, asc, pts, ptx, e57 or "
+      "las",
+      file.path(), extension));
 }
 
 }  // namespace

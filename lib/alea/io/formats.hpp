@@ -25,4 +25,20 @@ ScanFile read_xyz(const InputFile& file, const ReadOptions& options);
 /// comment line.
 void write_xyz(const std::string& path, const Cloud& cloud, char separator);
 
+/// Leica PTS: a number of points, then as many lines of x y z [intensity] [red green blue]; blocks
+/// of this kind may follow each other.
+std::vector<ScanFile> read_pts(const InputFile& file, const ReadOptions& options);
+
+/// Leica PTX: scans of columns times rows points in the scanner's frame, column by column, each
+/// with its pose; a point at 0 0 0 is a missing return.
+std::vector<ScanFile> read_ptx(const InputFile& file, const ReadOptions& options);
+
+/// E57 (ASTM E2807-11): every scan in its own frame with its pose. Not read: images, blobs, point
+/// groups, intensity and colour flags.
+std::vector<ScanFile> read_e57(const InputFile& file, const ReadOptions& options);
+
+/// LAS 1.0 to 1.4, point formats 0 to 10 (ASPRS, LAS specification 1.4 R15). All points are kept,
+/// also those that are flagged as withheld.
+ScanFile read_las(const InputFile& file, const ReadOptions& options);
+
 }  // namespace alea

@@ -65,9 +65,9 @@ Cloud merged_scans(std::vector<ScanFile> scans, const ReadOptions& options) {
     if (!scan.pose || (scans.size() == 1 && !options.apply_pose)) continue;
     if (!options.accept_non_rigid_pose && !is_rigid(*scan.pose))
       throw input_error(fmt::format(
-          "scan {} ('{}'): its pose is not rigid (R'R is not the identity to 1e-3); read the scan "
+          "scan {}: its pose is not rigid (R'R is not the identity to 1e-3); read the scan "
           "alone in its own frame with #{}",
-          i + 1, scan.name, i + 1));
+          i + 1, i + 1));
     apply_pose(scan.cloud, *scan.pose);
   }
   if (scans.size() == 1) return std::move(scans[0].cloud);

@@ -123,6 +123,7 @@ ScanFile read_xyz(const InputFile& file, const ReadOptions& options) {
   scan.fields = column_names(file, start, options);
   TextTable table;
   table.names = scan.fields;
+  table.commas = true;
   table.comments = true;
   CloudSink sink(channels_of(table.names), options);
   read_text_table(table, file.bytes().substr(start.offset), {file.path(), start.line}, SIZE_MAX,

@@ -1,25 +1,16 @@
 #include "alea/io/record_columns.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <type_traits>
 
+#include "alea/io/byte_order.hpp"
 #include "alea/io/field_role.hpp"
 
 namespace alea {
 namespace {
-
-template <typename T, bool swapped>
-T load(const char* at) {
-  std::array<char, sizeof(T)> raw;
-  std::memcpy(raw.data(), at, sizeof(T));
-  if constexpr (swapped) std::reverse(raw.begin(), raw.end());
-  return std::bit_cast<T>(raw);
-}
 
 // Calls body.template operator()<T>() with the C++ type of a scalar.
 template <typename Body>
@@ -88,7 +79,7 @@ void copy_column(FieldRole role, const Range& range, Cloud& cloud) {
   const auto each = [&](const auto& store) {
     const char* from = range.first;
     for (std::size_t i = range.at; i < range.at + range.count; ++i, from += range.stride)
-      store(i, load<T, swapped>(from));
+      store(i, load_value<T, swapped>(from));
   };
   using enum FieldRole;
   const auto axis = static_cast<int>(role);

@@ -31,6 +31,7 @@ struct Chunk {
   std::size_t lines = 0;
   std::size_t points = 0;
   std::size_t first_line = 0;
+  std::size_t first_point = 0;
 };
 
 // Cuts text at line ends into pieces of about chunk_bytes.
@@ -76,22 +77,26 @@ class LineParser {
         store(*roles_[c], c, value, point);
       }
     }
-    while (at != end && is_separator(*at)) ++at;
+    while (at != end && ends_value(*at)) ++at;
     if (at != end)
       throw input_error(fmt::format("{}: line {}: more than the {} values expected", place_.path,
                                     number, roles_.size()));
   }
 
  private:
+  bool ends_value(char c) const {
+    return c == ' ' || c == '\t' || c == '\r' || (table_.commas && (c == ',' || c == ';'));
+  }
+
   double next_value(const char*& at, const char* end, std::size_t number, std::size_t c) const {
-    while (at != end && is_separator(*at)) ++at;
+    while (at != end && ends_value(*at)) ++at;
     if (at == end)
       throw input_error(fmt::format("{}: line {}: {} values, expected {}", place_.path, number, c,
                                     roles_.size()));
     if (*at == '+') ++at;
     double value = 0;
     const auto [next, error] = std::from_chars(at, end, value);
-    const bool ended = next == end || is_separator(*next);
+    const bool ended = next == end || ends_value(*next);
     if (error == std::errc::result_out_of_range && ended) {
       value = std::nan("");
     } else if (error != std::errc{} || !ended) {
@@ -152,8 +157,13 @@ DroppedPoints parse_chunk(const LineParser& parser, const TextTable& table, cons
     offset = line.next;
     if (!is_data(table, line.text)) continue;
     Eigen::Vector3d& position = cloud.positions[at + point];
-    parser.parse(line.text, number, at + point++);
-    if (!table.zero_is_missing || !position.isZero(0)) continue;
+    parser.parse(line.text, number, at + point);
+    if (table.grid_rows > 0) {
+      cloud.rows[at + point] = static_cast<int>((chunk.first_point + point) % table.grid_rows);
+      cloud.columns[at + point] = static_cast<int>((chunk.first_point + point) / table.grid_rows);
+    }
+    ++point;
+    if (table.grid_rows == 0 || !position.isZero(0)) continue;
     position.x() = std::nan("");
     ++dropped.missing;
   }
@@ -204,6 +214,7 @@ std::size_t read_text_table(const TextTable& table, std::string_view text, const
                     [&](std::size_t c, std::size_t) { count_lines(table, chunks[c]); });
     for (Chunk& chunk : chunks) {
       chunk.first_line = line;
+      chunk.first_point = done;
       chunk.points = std::min(chunk.points, limit - done);
       line += chunk.lines;
       done += chunk.points;

@@ -11,15 +11,16 @@
 
 namespace alea {
 
-/// The columns of a text table. Values are separated by blanks, tabs, commas or semicolons.
+/// The columns of a text table. Values are separated by blanks and tabs.
 struct TextTable {
   std::vector<std::string> names;  ///< one for each column; a name without a role is skipped
   std::vector<bool> lists;         ///< a column that holds a count and as many values (PLY)
   std::vector<bool> packed_float;  ///< a packed colour that is written as a float (PCD)
-  bool comments = false;           ///< lines that begin with # or // are skipped
-  bool zero_is_missing = false;    ///< a point at 0 0 0 is an empty return (PTX)
-  bool byte_colours = false;       ///< colours are 0 to 255 and are widened (v * 257)
-  bool float_colours = false;      ///< colours are 0 to 1; neither: 0 to 65535
+  bool commas = false;             ///< commas and semicolons separate values too
+  std::size_t grid_rows = 0;   ///< of a PTX grid: points come column by column, 0 0 0 is no return
+  bool comments = false;       ///< lines that begin with # or // are skipped
+  bool byte_colours = false;   ///< colours are 0 to 255 and are widened (v * 257)
+  bool float_colours = false;  ///< colours are 0 to 1; neither: 0 to 65535
 };
 
 /// Where a table stands in its file, for messages.
