@@ -118,7 +118,6 @@ class Reader {
     const std::string where = fmt::format("{}: field {}", scan, node.name());
     const std::string_view type = node.attribute("type").value();
     E57Field out;
-    out.number = number_of_scan;
     out.name = node.name();
     const pugi::xml_attribute low = node.attribute("minimum");
     const pugi::xml_attribute high = node.attribute("maximum");
