@@ -1,6 +1,9 @@
 #include "alea/die/facet_image.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "alea/core/error.hpp"
 
@@ -24,7 +27,46 @@ Eigen::Vector2d view_slope(const FacetImageInput& image, const Plane& plane,
   return axes.transpose() * ray / std::max(cosine, steepest);
 }
 
+constexpr int levels = 4096;
+
+/// Counts of intensity in 4096 classes of the range; values outside go to its ends.
+std::vector<std::uint32_t> histogram(const std::vector<float>& intensity, IntensityRange range) {
+  std::vector<std::uint32_t> counts(levels, 0);
+  const double scale = (levels - 1) / (range.high - range.low);
+  for (const float value : intensity) {
+    if (!std::isfinite(value)) continue;
+    const double level = std::clamp((value - range.low) * scale, 0.0, levels - 1.0);
+    ++counts[static_cast<std::size_t>(level + 0.5)];
+  }
+  return counts;
+}
+
 }  // namespace
+
+IntensityRange intensity_range(const std::vector<float>& intensity) {
+  IntensityRange range{std::numeric_limits<double>::infinity(),
+                       -std::numeric_limits<double>::infinity()};
+  for (const float value : intensity) {
+    if (!std::isfinite(value)) continue;
+    range.low = std::min<double>(range.low, value);
+    range.high = std::max<double>(range.high, value);
+  }
+  for (int pass = 0; pass < 4 && range.high > range.low; ++pass) {
+    const std::vector<std::uint32_t> counts = histogram(intensity, range);
+    std::uint64_t total = 0;
+    for (const std::uint32_t count : counts) total += count;
+    const std::uint64_t tail = total / 200;
+    std::uint64_t below = 0, above = 0;
+    int first = 0, last = levels - 1;
+    while (first < last && (below += counts[first]) <= tail) ++first;
+    while (last > first && (above += counts[last]) <= tail) --last;
+    const double step = (range.high - range.low) / (levels - 1);
+    const bool fine_enough = last - first >= levels / 8;
+    range = {range.low + step * (first - 1), range.low + step * (last + 1)};
+    if (fine_enough) break;
+  }
+  return range;
+}
 
 std::array<FacetImageInput, 3> facet_images(
     const Cloud& cloud, const std::array<std::span<const std::uint32_t>, 3>& indices,

@@ -26,6 +26,17 @@ struct FacetImageInput {
   Eigen::Vector2d view_slope = Eigen::Vector2d::Zero();
 };
 
+/// The intensities that count, in the scan's own unit; empty (high not above low) where all are
+/// equal.
+struct IntensityRange {
+  double low = 0;
+  double high = 0;
+};
+
+/// The range that holds all but one in 200 values at either end: a few glints must not decide the
+/// scale. A single pip covers five times as much. Non-finite values are skipped.
+IntensityRange intensity_range(const std::vector<float>& intensity);
+
 /// Expresses the points of the three facets of a corner along the corner's edges. `indices[k]` are
 /// points of `planes[k]` (outward normals), `corner` is the assembly of these planes in this order,
 /// `edges_m[k]` the length of corner.edges[k]. Facet k runs along edges (k+1)%3 and (k+2)%3. Throws

@@ -9,51 +9,7 @@
 namespace alea {
 namespace {
 
-constexpr int levels = 4096;
-
-struct IntensityRange {
-  double low = 0;
-  double high = 0;
-};
-
-/// Counts of intensity in `levels` classes of the range; values outside go to its ends.
-std::vector<std::uint32_t> histogram(const std::vector<float>& intensity, IntensityRange range) {
-  std::vector<std::uint32_t> counts(levels, 0);
-  const double scale = (levels - 1) / (range.high - range.low);
-  for (const float value : intensity) {
-    if (!std::isfinite(value)) continue;
-    const double level = std::clamp((value - range.low) * scale, 0.0, levels - 1.0);
-    ++counts[static_cast<std::size_t>(level + 0.5)];
-  }
-  return counts;
-}
-
-/// The range that holds all but one in 200 values at either end: a few glints must not decide the
-/// scale. One pip covers five times as much.
-IntensityRange robust_range(const std::vector<float>& intensity) {
-  IntensityRange range{std::numeric_limits<double>::infinity(),
-                       -std::numeric_limits<double>::infinity()};
-  for (const float value : intensity) {
-    if (!std::isfinite(value)) continue;
-    range.low = std::min<double>(range.low, value);
-    range.high = std::max<double>(range.high, value);
-  }
-  for (int pass = 0; pass < 4 && range.high > range.low; ++pass) {
-    const std::vector<std::uint32_t> counts = histogram(intensity, range);
-    std::uint64_t total = 0;
-    for (const std::uint32_t count : counts) total += count;
-    const std::uint64_t tail = total / 200;
-    std::uint64_t below = 0, above = 0;
-    int first = 0, last = levels - 1;
-    while (first < last && (below += counts[first]) <= tail) ++first;
-    while (last > first && (above += counts[last]) <= tail) --last;
-    const double step = (range.high - range.low) / (levels - 1);
-    const bool fine_enough = last - first >= levels / 8;
-    range = {range.low + step * (first - 1), range.low + step * (last + 1)};
-    if (fine_enough) break;
-  }
-  return range;
-}
+constexpr int levels = 4096;  // of intensity, within its range
 
 struct CellSums {
   std::vector<std::uint32_t> count;
@@ -154,7 +110,7 @@ BlurredPip blurred_pip(const PipRaster& raster, const Eigen::Vector2d& place,
 
 PipRaster rasterise_pips(const FacetImageInput& image, const PipRasterOptions& options) {
   constexpr std::size_t fewest_cells = 12;
-  const IntensityRange range = robust_range(image.intensity);
+  const IntensityRange range = intensity_range(image.intensity);
   if (!(range.high > range.low)) return {};
   const CellSums sums = bin_points(image, options, range);
 

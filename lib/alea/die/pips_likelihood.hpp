@@ -16,7 +16,7 @@ struct PipReaderOptions {
   double frame_jitter_m = 0.004;  ///< sd of the facet's frame (corner, edges) about the true one
   /// Log-likelihood by which the best reading must beat every other, and the share of the best
   /// reading's own gain over a blank die that it must beat them by.
-  double min_margin = 8;
+  double min_margin = 6;
   double min_margin_share = 0.05;
   double min_gain = 20;  ///< log-likelihood of the best reading over a blank die
 };
