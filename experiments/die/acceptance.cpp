@@ -9,6 +9,8 @@ std::vector<Topic> die_topics() {
       {"bound", "ranges", "range at which the 10 m ring reaches 2.5 mm at 0.3 mrad",
        run_bound_ranges},
       {"bound", "ranks", "directions that a set of stations leaves open", run_bound_ranks},
+      {"die", "pips", "pips read by the counting chain and by likelihood, against the range",
+       run_pips},
   };
 }
 

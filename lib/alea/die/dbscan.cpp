@@ -1,5 +1,7 @@
 #include "alea/die/dbscan.hpp"
 
+// Boost.Geometry still includes a header that Boost itself calls deprecated.
+#define BOOST_ALLOW_DEPRECATED_HEADERS
 #include <boost/geometry/algorithms/disjoint.hpp>
 #include <boost/geometry/geometries/box.hpp>
 #include <boost/geometry/geometries/point.hpp>

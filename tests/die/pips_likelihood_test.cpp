@@ -1,0 +1,170 @@
+#include "alea/die/pips_likelihood.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
+
+#include "alea/core/error.hpp"
+#include "experiments/die/pip_trial.hpp"
+
+namespace alea {
+namespace {
+
+struct Score {
+  int right = 0, wrong = 0, refused = 0;
+};
+
+StreamKey trial_key(std::uint64_t trial) {
+  return {31, 0, trial, 0, Purpose::test};
+}
+
+die::PipTrialOptions quick() {
+  die::PipTrialOptions options;
+  options.step_rad = 1e-3;
+  return options;
+}
+
+Score score(const die::PipTrialOptions& options, int trials, const PipReaderOptions& reader = {}) {
+  Score score;
+  for (int t = 0; t < trials; ++t) {
+    const die::PipTrial trial = die::make_pip_trial(options, trial_key(t));
+    const auto reading = read_pips(trial.images, 1, reader);
+    if (!reading)
+      ++score.refused;
+    else
+      ++(reading->pips == trial.pips ? score.right : score.wrong);
+  }
+  return score;
+}
+
+TEST(PipsLikelihood, ReadsEveryOrientationAtSixMetres) {
+  EXPECT_EQ(score(quick(), 60).right, 60);
+}
+
+TEST(PipsLikelihood, ReadsWeakNoisyPipsFarAwayAndIsNotWrongWhereItRefuses) {
+  die::PipTrialOptions options = quick();
+  options.range_m = 30;
+  options.noise_over_contrast = 0.5;
+  const Score far = score(options, 200);
+  EXPECT_LE(far.wrong, 2);  // 1 % of 200
+  EXPECT_GT(far.refused, 20);
+  EXPECT_GT(far.right, 60);
+}
+
+TEST(PipsLikelihood, IntensityUnitsSignAndFalloffDoNotMatter) {
+  die::PipTrialOptions options = quick();
+  options.incidence_exponent = 1;
+  options.noise_over_contrast = 0.1;
+  EXPECT_EQ(score(options, 20).right, 20);
+  std::swap(options.background, options.pip);
+  EXPECT_EQ(score(options, 20).right, 20);
+  for (const auto& [scale, shift] : {std::pair{65535.0F, 0.0F}, {255.0F, 0.0F}, {30.0F, -70.0F}}) {
+    die::PipTrial trial = die::make_pip_trial(quick(), trial_key(2));
+    for (FacetImageInput& image : trial.images)
+      for (float& value : image.intensity) value = scale * value + shift;
+    const auto reading = read_pips(trial.images, 1);
+    ASSERT_TRUE(reading);
+    EXPECT_EQ(reading->pips, trial.pips);
+  }
+}
+
+TEST(PipsLikelihood, GlintsAndMissingValuesDoNotDisturb) {
+  die::PipTrial trial = die::make_pip_trial(quick(), trial_key(5));
+  for (FacetImageInput& image : trial.images)
+    for (std::size_t i = 0; i < image.intensity.size(); i += 400) {
+      image.intensity[i] = 1e6F;
+      image.intensity[i + 1] = std::numeric_limits<float>::quiet_NaN();
+    }
+  const auto reading = read_pips(trial.images, 1);
+  ASSERT_TRUE(reading);
+  EXPECT_EQ(reading->pips, trial.pips);
+}
+
+TEST(PipsLikelihood, OtherLatticesSizesAndTrimmedBordersAreRead) {
+  for (const double offset : {0.22, 0.28})
+    for (const double radius : {0.07, 0.11}) {
+      die::PipTrialOptions options = quick();
+      options.pip_offset = offset;
+      options.pip_radius = radius;
+      options.trim_m = 0.03;
+      EXPECT_EQ(score(options, 15).right, 15) << offset << " " << radius;
+    }
+  die::PipTrialOptions small = quick();
+  small.edge_m = 0.3;
+  EXPECT_EQ(score(small, 20).right, 20);
+}
+
+TEST(PipsLikelihood, ABlankCubeIsUnreadable) {
+  die::PipTrialOptions options = quick();
+  options.pip = options.background;
+  for (int t = 0; t < 40; ++t) {
+    const auto reading = read_pips(die::make_pip_trial(options, trial_key(t)).images, 1);
+    ASSERT_FALSE(reading);
+    EXPECT_EQ(reading.refusal().code, RefusalCode::pips_unreadable);
+  }
+}
+
+TEST(PipsLikelihood, OneFacetThatContradictsTheOthersIsRefused) {
+  for (int t = 0; t < 40; ++t) {
+    const die::PipTrial die_a = die::make_pip_trial(quick(), trial_key(t));
+    die::PipTrial mixed = die_a;
+    const die::PipTrial die_b = die::make_pip_trial(quick(), trial_key(t + 1000));
+    mixed.images[1] = die_b.images[1];
+    const PipTriple shown{die_a.pips[0], die_b.pips[1], die_a.pips[2]};
+    const auto reading = read_pips(mixed.images, 1, {.chirality = std::nullopt});
+    if (hand_of(shown)) continue;
+    EXPECT_FALSE(reading) << shown[0] << shown[1] << shown[2];
+  }
+}
+
+TEST(PipsLikelihood, TheHandIsReadAndRefusedWhereItIsNotTheExpectedOne) {
+  die::PipTrialOptions options = quick();
+  const auto right = read_pips(die::make_pip_trial(options, trial_key(0)).images, 1);
+  options.chirality = Chirality::counterclockwise;
+  const die::PipTrial trial = die::make_pip_trial(options, trial_key(1));
+  const auto other = read_pips(trial.images, 1);
+  ASSERT_TRUE(right && other);
+  EXPECT_EQ(other->pips, trial.pips);
+  EXPECT_EQ(right->hand, Chirality::clockwise);
+  EXPECT_EQ(other->hand, Chirality::counterclockwise);
+  EXPECT_GT(other->hand_margin, 10);
+  EXPECT_FALSE(refuse_by_hand(*right, *right, Chirality::clockwise));
+  EXPECT_FALSE(refuse_by_hand(*other, *other, std::nullopt));
+  EXPECT_EQ(refuse_by_hand(*other, *other, Chirality::clockwise)->code, RefusalCode::chirality);
+  EXPECT_EQ(refuse_by_hand(*right, *other, std::nullopt)->code, RefusalCode::mirrored);
+}
+
+TEST(PipsLikelihood, FacetsInTheOtherOrderGiveTheSameReading) {
+  const die::PipTrial trial = die::make_pip_trial(quick(), trial_key(7));
+  const std::array<FacetImageInput, 3> swapped{trial.images[1], trial.images[0], trial.images[2]};
+  const auto reading = read_pips(swapped, -1);
+  ASSERT_TRUE(reading);
+  EXPECT_EQ(reading->pips, (std::array{trial.pips[1], trial.pips[0], trial.pips[2]}));
+  EXPECT_EQ(reading->hand, Chirality::clockwise);
+}
+
+TEST(PipsLikelihood, TheOrderOfPointsDoesNotChangeABit) {
+  die::PipTrial trial = die::make_pip_trial(quick(), trial_key(8));
+  const auto before = read_pips(trial.images, 1);
+  for (FacetImageInput& image : trial.images) {
+    std::reverse(image.uv_m.begin(), image.uv_m.end());
+    std::reverse(image.intensity.begin(), image.intensity.end());
+  }
+  const auto after = read_pips(trial.images, 1);
+  ASSERT_TRUE(before && after);
+  EXPECT_EQ(before->margin, after->margin);
+  EXPECT_EQ(before->probability, after->probability);
+}
+
+TEST(PipsLikelihood, MisuseIsAnError) {
+  const die::PipTrial trial = die::make_pip_trial(quick(), trial_key(9));
+  EXPECT_THROW(read_pips(trial.images, 0), Error);
+  std::array<FacetImageInput, 3> images = trial.images;
+  images[2].edge_v_m = 0;
+  EXPECT_THROW(read_pips(images, 1), Error);
+}
+
+}  // namespace
+}  // namespace alea
