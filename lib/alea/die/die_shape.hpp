@@ -26,6 +26,10 @@ struct DieShape {
 /// counterclockwise the other way round. Throws Error(usage) where the edge is not positive.
 DieShape cube(double edge_m, Chirality chirality);
 
+/// Length of the edge where two adjacent facets meet (m), from corner to corner: between the two
+/// other facets that it ends at. Empty where one of the four is unknown or they do not meet.
+std::optional<double> edge_length_m(const DieShape& shape, int first_pips, int second_pips);
+
 /// The axis of the die that a facet is normal to: 0 for 1 and 6, 1 for 2 and 5, 2 for 3 and 4.
 constexpr int die_axis(int pips) {
   return (pips <= 3 ? pips : 7 - pips) - 1;
