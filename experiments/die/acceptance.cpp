@@ -4,6 +4,9 @@ namespace alea::acceptance {
 
 std::vector<Topic> die_topics() {
   return {
+      {"die", "exactness", "shared edge, noise-free dice, tilts 2 deg, sizes 5 %", run_exactness},
+      {"die", "leak", "what frame rules leak of a die's tilts, noise-free", run_leak},
+      {"die", "errata", "damage of each misprint on a perfect die", run_errata},
       {"die", "bound_tables", "Fisher bounds against the tables of the die study",
        run_bound_tables},
       {"bound", "ranges", "range at which the 10 m ring reaches 2.5 mm at 0.3 mrad",

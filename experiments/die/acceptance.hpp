@@ -18,4 +18,11 @@ void run_bound_ranks(const Options& options, const Report& report);
 /// Issue die, line 7: the counting chain and the likelihood reader on simulated facets.
 void run_pips(const Options& options, const Report& report);
 
+/// Issue die, line 1: the largest error of the shared edge over 1,000 noise-free dice.
+void run_exactness(const Options& options, const Report& report);
+/// Issue die, line 2: what each frame rule leaks of a die's tilts, 400 dice a cell.
+void run_leak(const Options& options, const Report& report);
+/// What each misprint of equations (3) to (8) does on a perfect die.
+void run_errata(const Options& options, const Report& report);
+
 }  // namespace alea::acceptance

@@ -30,7 +30,8 @@ struct EdgeLength {
 FacetAdjustment adjust_shared_facets(const ObservedDie& master, const ObservedDie& slave,
                                      const std::optional<EdgeLength>& edge);
 
-/// A shape with the standard deviations of its facets, independent of each other.
+/// A shape with the standard deviations of its facets, independent of each other; both zero (an
+/// exact shape) or both positive.
 struct UncertainShape {
   DieShape shape;
   double tilt_sd_rad = 0;  ///< of each facet about two directions, at its centre

@@ -32,6 +32,15 @@ Eigen::Matrix3d axes_from(const Eigen::Vector3d& along, const Eigen::Vector3d& a
   return axes;
 }
 
+/// Columns X, Y, Z with Z = up and X as near to `heading` as that allows.
+Eigen::Matrix3d upright_axes(const Eigen::Vector3d& up, const Eigen::Vector3d& heading) {
+  Eigen::Matrix3d axes;
+  axes.col(2) = up;
+  axes.col(1) = up.cross(heading).normalized();
+  axes.col(0) = axes.col(1).cross(up);
+  return axes;
+}
+
 const Eigen::Vector3d& normal_of(const ObservedDie& die, int pips) {
   const ObservedFacet* const facet = find_facet(die, pips);
   if (facet == nullptr) throw usage_error("edge axes: the scan does not see a named facet");
@@ -51,14 +60,14 @@ Eigen::Matrix3d orthogonal_axes(const CornerFrame& frame, FrameRule rule) {
     case FrameRule::polar:
       return nearest_rotation(frame.axes);
     case FrameRule::top_normal:
+      // X lies in the upper facet, so it is perpendicular to its normal as it is.
+      return upright_axes(frame.normals.col(2), frame.axes.col(0));
+    case FrameRule::mean_heading:
       break;
   }
-  // X lies in the upper facet, so it is perpendicular to its normal as it is.
-  Eigen::Matrix3d v;
-  v.col(2) = frame.normals.col(2);
-  v.col(1) = v.col(2).cross(frame.axes.col(0)).normalized();
-  v.col(0) = v.col(1).cross(v.col(2));
-  return v;
+  const Eigen::Vector3d& up = frame.normals.col(2);
+  const Eigen::Vector3d x = (frame.normals.col(0) - up * up.dot(frame.normals.col(0))).normalized();
+  return upright_axes(up, x + frame.normals.col(1).cross(up).normalized());
 }
 
 Eigen::Matrix3d orthogonal_axes_as_printed(const CornerFrame& frame) {

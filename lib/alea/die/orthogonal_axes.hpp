@@ -13,6 +13,7 @@ enum class FrameRule {
   fix_z,       ///< Z stays, X is the normal of Y and Z, Y follows: the paper's equations (1) to (3)
   polar,       ///< the rotation nearest to the three edges (least squares)
   top_normal,  ///< the upper facet's normal stays, then X
+  mean_heading,  ///< the upper facet's normal stays, then the mean heading of the two sides
 };
 
 /// Equations (1) to (3) of Chan et al. 2023 for the chosen rule, cyclic in the letters; unit

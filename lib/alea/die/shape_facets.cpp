@@ -10,22 +10,33 @@
 namespace alea {
 namespace {
 
-constexpr int steps = 3;  // each squares the error of the start, which is that of the fits
+// Each step squares the error of the start where the shape is exact; against a prior the error
+// falls by the size of the tilts.
+constexpr int steps = 6;
+constexpr int poses = 12;   ///< unknowns of the two poses
+constexpr int shapes = 18;  ///< unknowns of the shape, where it is uncertain
 
 /// The facets of the shape as fits about the die's middle, in the order of pips.
-std::array<PlaneFit, 6> shape_fits(const UncertainShape& shape, const ObservedDie& master,
-                                   const ObservedDie& slave) {
-  const double tilt = shape.tilt_sd_rad * shape.tilt_sd_rad;
-  const Eigen::Vector3d variances(tilt, tilt, shape.offset_sd_m * shape.offset_sd_m);
+std::array<PlaneFit, 6> nominal_fits(const DieShape& shape, const ObservedDie& master,
+                                     const ObservedDie& slave) {
   std::array<PlaneFit, 6> fits;
   for (const ObservedDie* die : {&master, &slave})
     for (const ObservedFacet& facet : die->facets) {
-      const auto& plane = shape.shape.facet(facet.pips);
+      const auto& plane = shape.facet(facet.pips);
       if (!plane) throw usage_error("closed form: the given shape lacks a facet that a scan sees");
-      fits[facet.pips - 1] =
-          exact_fit(*plane, Eigen::Vector3d::Zero(), Eigen::Matrix3d(variances.asDiagonal()));
+      fits[facet.pips - 1] = exact_fit(*plane, Eigen::Vector3d::Zero());
     }
   return fits;
+}
+
+/// A nominal facet after its tilts a, b (rad) and its offset c (m).
+PlaneFit changed(const PlaneFit& nominal, const Eigen::Vector3d& abc) {
+  PlaneFit fit = nominal;
+  fit.plane.normal = (nominal.plane.normal + nominal.tangent * abc.head<2>()).normalized();
+  fit.centroid_m += abc(2) * fit.plane.normal;
+  fit.plane.offset_m = fit.plane.normal.dot(fit.centroid_m);
+  fit.tangent -= fit.plane.normal * (fit.plane.normal.transpose() * nominal.tangent);
+  return fit;
 }
 
 /// From the three normals and the corner; exact without noise.
@@ -46,34 +57,41 @@ RigidTransform start(const ObservedDie& die, const std::array<PlaneFit, 6>& shap
   return scan_from_die;
 }
 
-struct BothScans {
-  const ObservedDie& master;
-  const ObservedDie& slave;
-  std::array<PlaneFit, 6> shape;
+/// The state of the adjustment: both poses and the shape's departure from its nominal planes.
+struct State {
+  std::array<RigidTransform, 2> scan_from_die;
+  Eigen::VectorXd shape = Eigen::VectorXd::Zero(shapes);  ///< a, b, c of each facet
 };
 
-/// Unknowns: scan_from_die of the master, then of the slave, six each.
-Misclosures misclosures_at(const BothScans& scans,
-                           const std::array<RigidTransform, 2>& scan_from_die) {
-  Misclosures m{Eigen::VectorXd::Zero(18), Eigen::MatrixXd::Zero(18, 12),
-                Eigen::MatrixXd::Zero(18, 18)};
-  Eigen::MatrixXd by_shape = Eigen::MatrixXd::Zero(18, 18);
-  Eigen::MatrixXd shape_covariance = Eigen::MatrixXd::Zero(18, 18);
-  for (int facet = 0; facet < 6; ++facet)
-    shape_covariance.block<3, 3>(3 * facet, 3 * facet) = scans.shape[facet].covariance;
-  for (int scan = 0; scan < 2; ++scan) {
-    const ObservedDie& die = scan == 0 ? scans.master : scans.slave;
+struct Problem {
+  std::array<const ObservedDie*, 2> scans;
+  std::array<PlaneFit, 6> nominal;
+  Eigen::VectorXd prior_variance;  ///< of State::shape; all zero: the shape is exact
+  bool shape_exact() const { return prior_variance.isZero(0); }
+};
+
+/// Rows: a, b, c of the master's three facets, of the slave's, then the shape against its prior.
+/// Unknowns: scan_from_die of the master and of the slave, six each, then the shape.
+Misclosures misclosures_at(const Problem& problem, const State& state) {
+  const int extra = problem.shape_exact() ? 0 : shapes, rows = 18 + extra;
+  Misclosures m{Eigen::VectorXd::Zero(rows), Eigen::MatrixXd::Zero(rows, poses + extra),
+                Eigen::MatrixXd::Zero(rows, rows)};
+  for (int scan = 0; scan < 2; ++scan)
     for (int k = 0; k < 3; ++k) {
-      const int row = 9 * scan + 3 * k, facet = die.facets[k].pips - 1;
-      const PlaneMatch match =
-          match_planes(die.facets[k].fit, scans.shape[facet], scan_from_die[scan]);
+      const ObservedFacet& seen = problem.scans[scan]->facets[k];
+      const int row = 9 * scan + 3 * k, facet = seen.pips - 1;
+      const PlaneFit known = changed(problem.nominal[facet], state.shape.segment<3>(3 * facet));
+      const PlaneMatch match = match_planes(seen.fit, known, state.scan_from_die[scan]);
       m.value.segment<3>(row) = match.residual;
       m.by_unknowns.block<3, 6>(row, 6 * scan) = match.by_transform;
-      m.covariance.block<3, 3>(row, row) = die.facets[k].fit.covariance;
-      by_shape.block<3, 3>(row, 3 * facet) = match.by_source;
+      if (extra > 0) m.by_unknowns.block<3, 3>(row, poses + 3 * facet) = match.by_source;
+      m.covariance.block<3, 3>(row, row) = seen.fit.covariance;
     }
+  if (extra > 0) {
+    m.value.tail(shapes) = state.shape;
+    m.by_unknowns.bottomRightCorner(shapes, shapes).setIdentity();
+    m.covariance.bottomRightCorner(shapes, shapes) = problem.prior_variance.asDiagonal();
   }
-  m.covariance += by_shape * shape_covariance * by_shape.transpose();
   return m;
 }
 
@@ -90,21 +108,27 @@ Matrix6d adjoint(const RigidTransform& t) {
 
 FacetAdjustment adjust_to_shape(const ObservedDie& master, const ObservedDie& slave,
                                 const UncertainShape& shape) {
-  const BothScans scans{master, slave, shape_fits(shape, master, slave)};
-  std::array<RigidTransform, 2> scan_from_die{start(master, scans.shape),
-                                              start(slave, scans.shape)};
+  const Eigen::Vector3d sd(shape.tilt_sd_rad, shape.tilt_sd_rad, shape.offset_sd_m);
+  const Problem problem{{&master, &slave},
+                        nominal_fits(shape.shape, master, slave),
+                        sd.cwiseAbs2().replicate<6, 1>()};
+  State state;
+  state.scan_from_die = {start(master, problem.nominal), start(slave, problem.nominal)};
   LeastSquares solution;
   for (int step = 0; step < steps; ++step) {
-    solution = solve_misclosures(misclosures_at(scans, scan_from_die));
+    solution = solve_misclosures(misclosures_at(problem, state));
     for (int scan = 0; scan < 2; ++scan)
-      scan_from_die[scan] = perturb_left(
-          scan_from_die[scan], solution.correction.segment<6>(6 * scan), Eigen::Vector3d::Zero());
+      state.scan_from_die[scan] =
+          perturb_left(state.scan_from_die[scan], solution.correction.segment<6>(6 * scan),
+                       Eigen::Vector3d::Zero());
+    if (!problem.shape_exact()) state.shape += solution.correction.tail(shapes);
   }
   FacetAdjustment result;
-  result.master_from_slave = scan_from_die[0] * scan_from_die[1].inverse();
-  Eigen::Matrix<double, 6, 12> by_both;
+  result.master_from_slave = state.scan_from_die[0] * state.scan_from_die[1].inverse();
+  Eigen::Matrix<double, 6, poses> by_both;
   by_both << Matrix6d::Identity(), -adjoint(result.master_from_slave);
-  result.covariance = by_both * solution.covariance * by_both.transpose();
+  result.covariance =
+      by_both * solution.covariance.topLeftCorner<poses, poses>() * by_both.transpose();
   result.chi_square = solution.chi_square;
   result.freedom = 6;
   return result;
