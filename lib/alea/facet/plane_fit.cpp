@@ -255,4 +255,14 @@ PlaneFit fit_plane(std::span<const Eigen::Vector3d> points, const PlaneFitOption
   return summarise(points, centred, plane, options);
 }
 
+PlaneFit flipped(const PlaneFit& fit) {
+  PlaneFit out = fit;
+  out.plane = fit.plane.flipped();
+  out.tangent = tangent_basis(out.plane.normal);
+  Eigen::Matrix3d turn = -Eigen::Matrix3d::Identity();
+  turn.topLeftCorner<2, 2>() = -out.tangent.transpose() * fit.tangent;
+  out.covariance = turn * fit.covariance * turn.transpose();
+  return out;
+}
+
 }  // namespace alea

@@ -56,4 +56,7 @@ struct PlaneFit {
 /// position.
 PlaneFit fit_plane(std::span<const Eigen::Vector3d> points, const PlaneFitOptions& options);
 
+/// The same plane with its normal to the other side; tangent and covariance follow.
+PlaneFit flipped(const PlaneFit& fit);
+
 }  // namespace alea

@@ -1,0 +1,139 @@
+#include "alea/facet/facet_extent.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "alea/core/order_free_sum.hpp"
+
+namespace alea {
+namespace {
+
+/// A facet's points: where their rays meet it and the area that each stands for (per step^2).
+struct Footprints {
+  std::vector<Eigen::Vector2d> uv_m;
+  std::vector<double> area_m2;
+};
+
+Footprints footprints_on(std::span<const Eigen::Vector3d> points, const FacetCorner& corner, int k,
+                         const Eigen::Vector2d& rough_m, const ExtentOptions& options) {
+  const FacetPlacer placer(corner, SelectionDomain::ray, options.scanner_position);
+  const Eigen::Vector3d& normal = corner.planes[k].normal;
+  Footprints out;
+  for (const Eigen::Vector3d& p : points) {
+    const auto place = placer.place(k, p);
+    if (!place || !place->nearest) continue;
+    if (place->height_m > options.outside_gate_m || place->height_m < -options.inside_gate_m)
+      continue;
+    if ((place->uv_m.array() > 1.3 * rough_m.array()).any()) continue;
+    const Eigen::Vector3d ray = p - options.scanner_position;
+    const double range = ray.norm();
+    out.uv_m.push_back(place->uv_m);
+    out.area_m2.push_back(range * range * range / std::max(1e-6, -normal.dot(ray)));
+  }
+  return out;
+}
+
+/// Sum of the areas with coordinate `axis` in (from, to].
+double area_between(const Footprints& points, int axis, double from, double to) {
+  double largest = 0;
+  for (const double area : points.area_m2) largest = std::max(largest, area);
+  OrderFreeSum<1> sum({largest}, points.uv_m.size());
+  for (std::size_t i = 0; i < points.uv_m.size(); ++i)
+    if (points.uv_m[i][axis] > from && points.uv_m[i][axis] <= to) sum.add(0, points.area_m2[i]);
+  return sum.total(0);
+}
+
+/// The end of the stretch of points that holds the middle of the rough length: two bins in a row
+/// with less than a quarter of the usual count end it.
+double end_of_stretch(const Footprints& points, int axis, double rough_m, double bin_m) {
+  const auto bins = static_cast<std::size_t>(std::ceil(1.3 * rough_m / bin_m)) + 1;
+  std::vector<int> count(bins, 0);
+  for (const Eigen::Vector2d& uv : points.uv_m) {
+    const double bin = std::floor(uv[axis] / bin_m);
+    if (bin >= 0 && bin < static_cast<double>(bins)) ++count[static_cast<std::size_t>(bin)];
+  }
+  const auto middle = static_cast<std::size_t>(0.5 * rough_m / bin_m);
+  std::vector<int> inner(count.begin(), count.begin() + static_cast<std::ptrdiff_t>(2 * middle) + 1);
+  std::nth_element(inner.begin(), inner.begin() + static_cast<std::ptrdiff_t>(middle), inner.end());
+  const int few = inner[middle] / 4;
+  std::size_t end = middle;
+  while (end + 2 < bins && (count[end + 1] > few || count[end + 2] > few)) ++end;
+  return static_cast<double>(end + 1) * bin_m;
+}
+
+/// Spacing of the points along an edge (m): from the area that a step of the grid covers.
+Eigen::Vector2d spacing_of(const Footprints& points, const FacetCorner& corner, int k,
+                           const Eigen::Vector2d& rough_m, const ExtentOptions& options) {
+  const Eigen::Vector3d &e_u = corner.edges[(k + 1) % 3], &e_v = corner.edges[(k + 2) % 3];
+  const Eigen::Vector3d middle =
+      corner.corner_m + 0.5 * rough_m.x() * e_u + 0.5 * rough_m.y() * e_v;
+  const Eigen::Vector3d ray = middle - options.scanner_position;
+  Footprints inner;
+  for (std::size_t i = 0; i < points.uv_m.size(); ++i) {
+    const Eigen::Array2d share = points.uv_m[i].array() / rough_m.array();
+    if ((share < 0.2).any() || (share > 0.8).any()) continue;
+    inner.uv_m.push_back(points.uv_m[i]), inner.area_m2.push_back(points.area_m2[i]);
+  }
+  const double covered = inner.uv_m.empty() ? 0 : area_between(inner, 0, 0, rough_m.x());
+  const double area = 0.36 * rough_m.prod() * e_u.cross(e_v).norm();
+  const double step = covered > 0 ? std::sqrt(area / covered) : rough_m.minCoeff() / ray.norm() / 4;
+  const Eigen::Vector3d towards = ray.normalized();
+  const auto along = [&](const Eigen::Vector3d& edge) {
+    return step * ray.norm() / std::max(0.02, edge.cross(towards).norm());
+  };
+  return {along(e_u), along(e_v)};
+}
+
+/// Incidence (rad) at a far border, in the plane across that border.
+double incidence_across(const FacetCorner& corner, int k, const Eigen::Vector3d& border,
+                        const Eigen::Vector3d& ray) {
+  const Eigen::Vector3d across = ray - border.dot(ray) * border;
+  const double cosine = -corner.planes[k].normal.dot(across) / std::max(1e-12, across.norm());
+  return std::acos(std::clamp(cosine, 0.0, 1.0));
+}
+
+}  // namespace
+
+double hidden_share(double incidence_rad) {
+  const double i = std::clamp(incidence_rad, 0.0, 1.55);
+  return (1 - std::cos(i)) + (1 - std::sin(i)) * std::tan(i);
+}
+
+std::array<FacetExtent, 3> measure_extents(std::span<const Eigen::Vector3d> points,
+                                           const FacetCorner& corner,
+                                           const std::array<Eigen::Vector2d, 3>& rough_lengths_m,
+                                           const ExtentOptions& options) {
+  std::array<FacetExtent, 3> out;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector2d& rough = rough_lengths_m[k];
+    const Footprints facet = footprints_on(points, corner, k, rough, options);
+    if (facet.uv_m.size() < 4) {
+      out[k].length_sd_m.setConstant(rough.maxCoeff());
+      continue;
+    }
+    const Eigen::Vector2d spacing = spacing_of(facet, corner, k, rough, options);
+    out[k].low_m = facet.uv_m[0];
+    for (const Eigen::Vector2d& uv : facet.uv_m) out[k].low_m = out[k].low_m.cwiseMin(uv);
+    for (int axis = 0; axis < 2; ++axis) {
+      const double bin = std::max(1.01 * spacing[axis], rough[axis] / 200);
+      const double end = end_of_stretch(facet, axis, rough[axis], bin);
+      const double from = 0.1 * end, to = 0.6 * end;
+      const double per_metre = area_between(facet, axis, from, to) / (to - from);
+      const double beyond = area_between(facet, axis, to, end + bin);
+      out[k].high_m[axis] = per_metre > 0 ? to + beyond / per_metre : end;
+      const Eigen::Vector3d& along = corner.edges[(k + 1 + axis) % 3];
+      const Eigen::Vector3d& border = corner.edges[(k + 2 - axis) % 3];
+      const Eigen::Vector3d ray = corner.corner_m + end * along - options.scanner_position;
+      const double hidden =
+          options.edge_radius_m * hidden_share(incidence_across(corner, k, border, ray));
+      const double blurred = 0.5 * options.footprint_m;
+      out[k].length_m[axis] = out[k].high_m[axis] + hidden + blurred;
+      out[k].length_sd_m[axis] = std::sqrt(std::pow(0.5 * spacing[axis], 2) +
+                                           std::pow(0.3 * hidden, 2) + std::pow(0.5 * blurred, 2));
+    }
+  }
+  return out;
+}
+
+}  // namespace alea
