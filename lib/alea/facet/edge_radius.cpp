@@ -54,9 +54,8 @@ double misfit(const Profile& profile, double radius_m) {
   for (std::size_t k = 0; k < bins; ++k) {
     const double s = std::abs(profile.s_at(k));
     const bool round = s < radius_m / std::numbers::sqrt2;
-    const double cut = round ? std::numbers::sqrt2 * radius_m -
-                                   std::sqrt(radius_m * radius_m - s * s) - s
-                             : 0;
+    const double cut =
+        round ? std::numbers::sqrt2 * radius_m - std::sqrt(radius_m * radius_m - s * s) - s : 0;
     sum += profile.count[k] * (profile.mean_t[k] - cut) * (profile.mean_t[k] - cut);
   }
   return sum;

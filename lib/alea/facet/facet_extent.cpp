@@ -54,7 +54,8 @@ double end_of_stretch(const Footprints& points, int axis, double rough_m, double
     if (bin >= 0 && bin < static_cast<double>(bins)) ++count[static_cast<std::size_t>(bin)];
   }
   const auto middle = static_cast<std::size_t>(0.5 * rough_m / bin_m);
-  std::vector<int> inner(count.begin(), count.begin() + static_cast<std::ptrdiff_t>(2 * middle) + 1);
+  std::vector<int> inner(count.begin(),
+                         count.begin() + static_cast<std::ptrdiff_t>(2 * middle) + 1);
   std::nth_element(inner.begin(), inner.begin() + static_cast<std::ptrdiff_t>(middle), inner.end());
   const int few = inner[middle] / 4;
   std::size_t end = middle;

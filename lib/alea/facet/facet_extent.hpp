@@ -23,7 +23,7 @@ struct ExtentOptions {
   double edge_radius_m = 0;
   double footprint_m = 0.008;     ///< beam diameter on the facet
   double outside_gate_m = 0.005;  ///< points farther outside their facet do not belong to it
-  double inside_gate_m = 0.02;    ///< points deeper than this neither (deep enough for the rounding)
+  double inside_gate_m = 0.02;  ///< points deeper than this neither (deep enough for the rounding)
 };
 
 /// The share of an edge radius that a scanner does not see at a facet's far border: the ray that

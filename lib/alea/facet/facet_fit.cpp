@@ -13,7 +13,7 @@ namespace {
 
 constexpr int max_iterations = 10;
 constexpr double interior_share = 0.15;  // of an edge, trimmed before the radius is known
-constexpr double depth_share = 0.08;     // of an edge: how deep below a plane a rounded edge may lie
+constexpr double depth_share = 0.08;  // of an edge: how deep below a plane a rounded edge may lie
 constexpr double least_gate_m = 1e-4;
 
 SelectionDomain domain_of(const FacetFitOptions& options) {
@@ -80,8 +80,7 @@ std::optional<Refusal> select_and_fit(const FacetNeighbourhood& about, FacetSele
         least_gate_m, options.gate_sigmas * robust_scale_m(about, members, state.fits[k])));
   }
   const auto corner = facet_corner(planes);
-  if (!corner)
-    return Refusal{RefusalCode::no_die, "the facets' planes do not meet in one corner"};
+  if (!corner) return Refusal{RefusalCode::no_die, "the facets' planes do not meet in one corner"};
   state.corner = *corner;
   return std::nullopt;
 }
@@ -129,8 +128,8 @@ Result<FacetFits> fit_facets(const Cloud& cloud, const std::array<PlaneRegion, 3
   for (const Eigen::Vector2d& lengths : rough) edge = std::min(edge, lengths.minCoeff());
   if (!(edge > 0))
     return Refusal{RefusalCode::no_die, "the three planes' points do not lie about one corner"};
-  const FacetNeighbourhood about =
-      points_about(cloud, state.corner, rough, std::max(depth_share * edge, options.gate_m.value_or(0)));
+  const FacetNeighbourhood about = points_about(
+      cloud, state.corner, rough, std::max(depth_share * edge, options.gate_m.value_or(0)));
 
   FacetFits out;
   ExtentOptions extent_options;
@@ -153,8 +152,7 @@ Result<FacetFits> fit_facets(const Cloud& cloud, const std::array<PlaneRegion, 3
   combine_edges(out);
 
   const double least = std::min(options.least_trim_m, shortest(out.extents) / 15);
-  out.trim_m =
-      options.trim_m.value_or(std::max({out.edge_radius_m, options.footprint_m, least}));
+  out.trim_m = options.trim_m.value_or(std::max({out.edge_radius_m, options.footprint_m, least}));
   selection.trim_m = out.trim_m;
   selection.lengths_m = lengths_of(out.extents);
   selection.nearest_plane = options.nearest_plane;

@@ -34,7 +34,7 @@ struct FacetFitOptions {
 
 /// The three facets of a corner, fitted to their points.
 struct FacetFits {
-  std::array<PlaneFit, 3> fits;                      ///< in the order given
+  std::array<PlaneFit, 3> fits;                       ///< in the order given
   std::array<std::vector<std::uint32_t>, 3> indices;  ///< points that each fit used, ascending
   FacetCorner corner;
   std::array<FacetExtent, 3> extents;

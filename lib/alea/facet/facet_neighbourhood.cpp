@@ -8,7 +8,7 @@
 namespace alea {
 
 FacetNeighbourhood points_about(const Cloud& cloud, const FacetCorner& corner,
-                           const std::array<Eigen::Vector2d, 3>& lengths_m, double depth_m) {
+                                const std::array<Eigen::Vector2d, 3>& lengths_m, double depth_m) {
   Eigen::Vector3d middle = corner.corner_m;
   double radius = 0;
   for (int j = 0; j < 3; ++j) {
