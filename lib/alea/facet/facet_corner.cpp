@@ -1,5 +1,6 @@
 #include "alea/facet/facet_corner.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>

@@ -1,5 +1,6 @@
 #include "alea/facet/facet_extent.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <vector>
