@@ -29,39 +29,41 @@ std::optional<FacetCorner> facet_corner(const std::array<Plane, 3>& planes) {
 
 FacetPlacer::FacetPlacer(const FacetCorner& corner, SelectionDomain domain,
                          const Eigen::Vector3d& scanner_position)
-    : corner_(corner), domain_(domain), scanner_(scanner_position) {
+    : corner_(corner), domain_(domain), scanner_(scanner_position - corner.corner_m) {
   for (int k = 0; k < 3; ++k) {
-    scanner_height_m_[k] = corner.planes[k].normal.dot(scanner_position - corner.corner_m);
+    scanner_height_m_[k] = corner.planes[k].normal.dot(scanner_);
     Eigen::Matrix3d frame;
     frame.col(0) = corner.edges[(k + 1) % 3];
     frame.col(1) = corner.edges[(k + 2) % 3];
     frame.col(2) = corner.planes[k].normal;
-    duals_[k] = frame.inverse().topRows<2>().transpose();
+    duals_[k] = frame.inverse().topRows<2>();
   }
 }
 
-std::optional<FacetPlace> FacetPlacer::place(int k, const Eigen::Vector3d& p) const {
-  FacetPlace out;
-  std::array<double, 3> height{};
-  for (int j = 0; j < 3; ++j) height[j] = corner_.planes[j].normal.dot(p - corner_.corner_m);
-  out.height_m = height[k];
-  out.nearest = true;
+PlacedPoint FacetPlacer::approach(const Eigen::Vector3d& p) const {
+  PlacedPoint out;
+  for (int k = 0; k < 3; ++k) out.height_m[k] = corner_.planes[k].normal.dot(p - corner_.corner_m);
   if (domain_ == SelectionDomain::coordinate) {
-    for (int j = 0; j < 3; ++j) out.nearest &= std::abs(height[k]) <= std::abs(height[j]);
-    out.uv_m = duals_[k].transpose() * (p - corner_.corner_m);
+    out.meets.fill(true);
+    for (int k = 1; k < 3; ++k)
+      if (std::abs(out.height_m[k]) < std::abs(out.height_m[out.nearest])) out.nearest = k;
     return out;
   }
-  // The ray scanner + t (p - scanner) meets plane j at t = scanner height / (fall along the ray).
-  const auto meets_at = [&](int j) {
-    const double fall = scanner_height_m_[j] - height[j];
-    return fall > 0 && scanner_height_m_[j] > 0 ? scanner_height_m_[j] / fall
-                                                : -std::numeric_limits<double>::infinity();
-  };
-  const double t = meets_at(k);
-  if (!(t > 0)) return std::nullopt;
-  for (int j = 0; j < 3; ++j) out.nearest &= t >= meets_at(j);
-  out.uv_m = duals_[k].transpose() * (scanner_ + t * (p - scanner_) - corner_.corner_m);
+  // The ray scanner + t (p - scanner) meets plane k at t = scanner height / (fall along the ray).
+  for (int k = 0; k < 3; ++k) {
+    const double fall = scanner_height_m_[k] - out.height_m[k];
+    out.meets[k] = fall > 0 && scanner_height_m_[k] > 0;
+    out.at[k] = out.meets[k] ? scanner_height_m_[k] / fall : 0;
+    if (out.at[k] > out.at[out.nearest]) out.nearest = k;
+  }
   return out;
+}
+
+Eigen::Vector2d FacetPlacer::uv_m(int k, const Eigen::Vector3d& p,
+                                  const PlacedPoint& placed) const {
+  const Eigen::Vector3d from_corner = p - corner_.corner_m;
+  if (domain_ == SelectionDomain::coordinate) return duals_[k] * from_corner;
+  return duals_[k] * (scanner_ + placed.at[k] * (from_corner - scanner_));
 }
 
 double corner_sine(const FacetCorner& corner, int k) {

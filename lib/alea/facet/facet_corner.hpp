@@ -20,17 +20,19 @@ struct FacetCorner {
 /// Empty where two of the planes are parallel within 1e-6 rad or all three share a direction.
 std::optional<FacetCorner> facet_corner(const std::array<Plane, 3>& planes);
 
-/// A point as seen from one facet.
-struct FacetPlace {
-  Eigen::Vector2d uv_m;  ///< along edges[(k+1)%3] and edges[(k+2)%3], from the corner
-  double height_m = 0;   ///< of the measured point over the facet's plane, positive outside
-  bool nearest = false;  ///< no other facet is nearer
-};
-
 /// How a point gets its place on a facet.
 enum class SelectionDomain {
   ray,         ///< where the scanner's ray through the point meets the plane: by direction only
   coordinate,  ///< the foot of the perpendicular from the measured point
+};
+
+/// A point held against the three facets of a corner.
+struct PlacedPoint {
+  std::array<double, 3> height_m{};  ///< of the measured point over each plane, positive outside
+  std::array<double, 3>
+      at{};  ///< ray domain: share of the measured range at which the ray meets it
+  std::array<bool, 3> meets{};  ///< whether the point has a place on the facet's front
+  int nearest = 0;              ///< the facet that the point belongs to where borders meet
 };
 
 /// Places points on the facets of a corner. Nearest facet: in the ray domain the one that the ray
@@ -41,16 +43,16 @@ class FacetPlacer {
   FacetPlacer(const FacetCorner& corner, SelectionDomain domain,
               const Eigen::Vector3d& scanner_position);
 
-  /// The place of point p (m) on facet k; empty where its ray does not meet the facet's front.
-  std::optional<FacetPlace> place(int k, const Eigen::Vector3d& p) const;
+  PlacedPoint approach(const Eigen::Vector3d& p) const;
+  /// Place on facet k along edges[(k+1)%3] and edges[(k+2)%3] from the corner (m).
+  Eigen::Vector2d uv_m(int k, const Eigen::Vector3d& p, const PlacedPoint& placed) const;
 
  private:
   FacetCorner corner_;
   SelectionDomain domain_;
-  Eigen::Vector3d scanner_;
-  std::array<double, 3> scanner_height_m_;
-  /// uv = duals[k]^T (p - corner).
-  std::array<Eigen::Matrix<double, 3, 2>, 3> duals_;
+  Eigen::Vector3d scanner_;  ///< from the corner
+  std::array<double, 3> scanner_height_m_{};
+  std::array<Eigen::Matrix<double, 2, 3>, 3> duals_;  ///< uv = duals[k] (place - corner)
 };
 
 /// Sine of the angle between the two edges of facet k: turns uv into distances from the borders.

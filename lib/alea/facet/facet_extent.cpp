@@ -14,6 +14,7 @@ namespace {
 struct Footprints {
   std::vector<Eigen::Vector2d> uv_m;
   std::vector<double> area_m2;
+  std::vector<Eigen::Vector2d> about_m;  // the same and what is near its plane
 };
 
 Footprints footprints_on(std::span<const Eigen::Vector3d> points, const FacetCorner& corner, int k,
@@ -22,14 +23,16 @@ Footprints footprints_on(std::span<const Eigen::Vector3d> points, const FacetCor
   const Eigen::Vector3d& normal = corner.planes[k].normal;
   Footprints out;
   for (const Eigen::Vector3d& p : points) {
-    const auto place = placer.place(k, p);
-    if (!place || !place->nearest) continue;
-    if (place->height_m > options.outside_gate_m || place->height_m < -options.inside_gate_m)
-      continue;
-    if ((place->uv_m.array() > 1.3 * rough_m.array()).any()) continue;
+    const PlacedPoint placed = placer.approach(p);
+    if (placed.nearest != k || !placed.meets[k]) continue;
+    const Eigen::Vector2d uv = placer.uv_m(k, p, placed);
+    if ((uv.array() > 1.3 * rough_m.array()).any()) continue;
+    const double height = placed.height_m[k];
+    out.about_m.push_back(uv);
+    if (height > options.outside_gate_m || height < -options.inside_gate_m) continue;
     const Eigen::Vector3d ray = p - options.scanner_position;
     const double range = ray.norm();
-    out.uv_m.push_back(place->uv_m);
+    out.uv_m.push_back(uv);
     out.area_m2.push_back(range * range * range / std::max(1e-6, -normal.dot(ray)));
   }
   return out;
@@ -95,6 +98,43 @@ double incidence_across(const FacetCorner& corner, int k, const Eigen::Vector3d&
   return std::acos(std::clamp(cosine, 0.0, 1.0));
 }
 
+/// Whether points near the facet's plane go on beyond its end: at least half as many in the next
+/// bins as inside it.
+bool goes_on(const Footprints& points, int axis, double end_m, double bin_m) {
+  double beyond = 0, inside = 0;
+  for (const Eigen::Vector2d& uv : points.about_m) {
+    beyond += uv[axis] > end_m + bin_m && uv[axis] <= end_m + 3 * bin_m ? 1 : 0;
+    inside += uv[axis] > end_m - 6 * bin_m && uv[axis] <= end_m - 2 * bin_m ? 1 : 0;
+  }
+  return 4 * beyond > inside;
+}
+
+void measure_axis(const Footprints& facet, const FacetCorner& corner, int k, int axis,
+                  double rough_m, double spacing_m, const ExtentOptions& options,
+                  FacetExtent& out) {
+  const double bin = std::max(1.01 * spacing_m, rough_m / 200);
+  const double end = end_of_stretch(facet, axis, rough_m, bin);
+  const double from = 0.1 * end, to = 0.6 * end;
+  const double per_metre = area_between(facet, axis, from, to) / (to - from);
+  out.high_m[axis] =
+      per_metre > 0 ? to + area_between(facet, axis, to, end + bin) / per_metre : end;
+  out.border_m[axis] = out.length_m[axis] = out.high_m[axis];
+  out.sampling_sd_m[axis] = 0.5 * spacing_m;
+  if (goes_on(facet, axis, end, bin)) {
+    out.hidden_sd_m[axis] = options.outside_gate_m / 2;
+    return;
+  }
+  const Eigen::Vector3d& along = corner.edges[(k + 1 + axis) % 3];
+  const Eigen::Vector3d& border = corner.edges[(k + 2 - axis) % 3];
+  const Eigen::Vector3d ray = corner.corner_m + end * along - options.scanner_position;
+  const double hidden =
+      options.edge_radius_m * hidden_share(incidence_across(corner, k, border, ray));
+  out.border_m[axis] += hidden;
+  out.length_m[axis] += hidden + options.footprint_m / 2;
+  // The share of a footprint that still counts as the facet is between none and half of it.
+  out.hidden_sd_m[axis] = std::hypot(0.3 * hidden, options.footprint_m / 2 / std::sqrt(3.0));
+}
+
 }  // namespace
 
 double hidden_share(double incidence_rad) {
@@ -110,30 +150,13 @@ std::array<FacetExtent, 3> measure_extents(std::span<const Eigen::Vector3d> poin
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector2d& rough = rough_lengths_m[k];
     const Footprints facet = footprints_on(points, corner, k, rough, options);
-    if (facet.uv_m.size() < 4) {
-      out[k].length_sd_m.setConstant(rough.maxCoeff());
-      continue;
-    }
+    out[k].sampling_sd_m = rough;  // nothing is known of a facet without points
+    if (facet.uv_m.size() < 4) continue;
     const Eigen::Vector2d spacing = spacing_of(facet, corner, k, rough, options);
     out[k].low_m = facet.uv_m[0];
     for (const Eigen::Vector2d& uv : facet.uv_m) out[k].low_m = out[k].low_m.cwiseMin(uv);
-    for (int axis = 0; axis < 2; ++axis) {
-      const double bin = std::max(1.01 * spacing[axis], rough[axis] / 200);
-      const double end = end_of_stretch(facet, axis, rough[axis], bin);
-      const double from = 0.1 * end, to = 0.6 * end;
-      const double per_metre = area_between(facet, axis, from, to) / (to - from);
-      const double beyond = area_between(facet, axis, to, end + bin);
-      out[k].high_m[axis] = per_metre > 0 ? to + beyond / per_metre : end;
-      const Eigen::Vector3d& along = corner.edges[(k + 1 + axis) % 3];
-      const Eigen::Vector3d& border = corner.edges[(k + 2 - axis) % 3];
-      const Eigen::Vector3d ray = corner.corner_m + end * along - options.scanner_position;
-      const double hidden =
-          options.edge_radius_m * hidden_share(incidence_across(corner, k, border, ray));
-      const double blurred = 0.5 * options.footprint_m;
-      out[k].length_m[axis] = out[k].high_m[axis] + hidden + blurred;
-      out[k].length_sd_m[axis] = std::sqrt(std::pow(0.5 * spacing[axis], 2) +
-                                           std::pow(0.3 * hidden, 2) + std::pow(0.5 * blurred, 2));
-    }
+    for (int axis = 0; axis < 2; ++axis)
+      measure_axis(facet, corner, k, axis, rough[axis], spacing[axis], options, out[k]);
   }
   return out;
 }

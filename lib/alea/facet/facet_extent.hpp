@@ -12,10 +12,14 @@ namespace alea {
 struct FacetExtent {
   Eigen::Vector2d low_m = Eigen::Vector2d::Zero();   ///< least u and v of the facet's points
   Eigen::Vector2d high_m = Eigen::Vector2d::Zero();  ///< where the surface seen from here ends
-  /// From the corner to the far border of the sharp facet: high_m and what the edge radius and the
-  /// footprint hide at the silhouette.
+  /// Where the sharp facet would end if the beam were thin: what a trim is measured from.
+  Eigen::Vector2d border_m = Eigen::Vector2d::Zero();
+  /// From the corner to the far border of the sharp facet: high_m and, where the facet ends in a
+  /// silhouette, what edge radius and footprint hide. Where a surface goes on from the border (the
+  /// floor under the die) nothing is hidden.
   Eigen::Vector2d length_m = Eigen::Vector2d::Zero();
-  Eigen::Vector2d length_sd_m = Eigen::Vector2d::Zero();
+  Eigen::Vector2d sampling_sd_m = Eigen::Vector2d::Zero();  ///< of the length, from the spacing
+  Eigen::Vector2d hidden_sd_m = Eigen::Vector2d::Zero();    ///< and from what is hidden
 };
 
 struct ExtentOptions {

@@ -11,7 +11,8 @@
 namespace alea {
 namespace {
 
-constexpr int max_iterations = 10;
+constexpr int max_iterations = 12, interior_passes = 3;
+constexpr double settled_m = 1e-7, settled_rad = 1e-7;
 constexpr double interior_share = 0.15;  // of an edge, trimmed before the radius is known
 constexpr double depth_share = 0.08;  // of an edge: how deep below a plane a rounded edge may lie
 constexpr double least_gate_m = 1e-4;
@@ -36,53 +37,92 @@ std::array<Plane, 3> outward_planes(const std::array<PlaneRegion, 3>& regions,
   return out;
 }
 
-/// Everything that one pass of selecting and fitting changes.
+/// What an iteration of selecting and fitting goes on with.
 struct State {
   FacetCorner corner;
-  std::array<PlaneFit, 3> fits;
-  std::array<std::vector<std::uint32_t>, 3> members;  // into the neighbourhood
   std::array<double, 3> gate_m{};
 };
 
-double robust_scale_m(const FacetNeighbourhood& about, const std::vector<std::uint32_t>& members,
-                      const PlaneFit& fit) {
+using Members = std::array<std::vector<Eigen::Vector3d>, 3>;
+
+double robust_scale_m(const std::vector<Eigen::Vector3d>& members, const Plane& plane,
+                      const Eigen::Vector3d& near) {
+  const double offset = plane.signed_distance(near);
   std::vector<double> heights;
   heights.reserve(members.size());
-  for (const std::uint32_t i : members)
-    heights.push_back(std::abs(fit.plane.normal.dot(about.points[i] - fit.centroid_m)));
+  for (const Eigen::Vector3d& p : members)
+    heights.push_back(std::abs(plane.normal.dot(p - near) + offset));
   const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
   std::nth_element(heights.begin(), middle, heights.end());
   return *middle / 0.67449;
 }
 
-std::optional<Refusal> select_and_fit(const FacetNeighbourhood& about, FacetSelection selection,
-                                      const FacetFitOptions& options, State& state) {
-  selection.gate_m = state.gate_m;
-  state.members = select_facet_points(about.points, state.corner, selection);
-  std::array<Plane, 3> planes;
-  for (int k = 0; k < 3; ++k) {
-    const auto& members = state.members[k];
-    if (members.size() < options.min_points)
+std::optional<Refusal> check_members(const FacetMembers& members, std::size_t min_points) {
+  for (const auto& facet : members)
+    if (facet.size() < min_points)
       return Refusal{RefusalCode::too_few_points,
-                     "a facet has " + std::to_string(members.size()) +
-                         " points inside its borders, " + std::to_string(options.min_points) +
+                     "a facet has " + std::to_string(facet.size()) +
+                         " points inside its borders, " + std::to_string(min_points) +
                          " are needed; scan the die more densely or from nearer"};
-    std::vector<Eigen::Vector3d> points;
-    points.reserve(members.size());
-    for (const std::uint32_t i : members) points.push_back(about.points[i]);
-    state.fits[k] = fit_plane(points, options.fit);
-    planes[k] = state.fits[k].plane;
+  return std::nullopt;
+}
+
+Members points_of(const FacetNeighbourhood& about, const FacetMembers& members) {
+  Members out;
+  for (int k = 0; k < 3; ++k) {
+    out[k].reserve(members[k].size());
+    for (const std::uint32_t i : members[k]) out[k].push_back(about.points[i]);
+  }
+  return out;
+}
+
+/// Improves the planes once by their members; empty where they no longer meet in a corner.
+std::optional<State> improve(const Members& members, const FacetFitOptions& options,
+                             const State& before) {
+  std::array<Plane, 3> planes;
+  State after;
+  for (int k = 0; k < 3; ++k) {
+    planes[k] = improve_plane(members[k], before.corner.planes[k], options.fit);
     // Without a scanner the fit cannot know the outside; the first planes did.
-    if (state.fits[k].plane.normal.dot(state.corner.planes[k].normal) < 0)
-      state.fits[k] = flipped(state.fits[k]);
-    planes[k] = state.fits[k].plane;
-    state.gate_m[k] = options.gate_m.value_or(std::max(
-        least_gate_m, options.gate_sigmas * robust_scale_m(about, members, state.fits[k])));
+    if (planes[k].normal.dot(before.corner.planes[k].normal) < 0) planes[k] = planes[k].flipped();
+    after.gate_m[k] = options.gate_m.value_or(std::max(
+        least_gate_m,
+        options.gate_sigmas * robust_scale_m(members[k], planes[k], before.corner.corner_m)));
   }
   const auto corner = facet_corner(planes);
-  if (!corner) return Refusal{RefusalCode::no_die, "the facets' planes do not meet in one corner"};
-  state.corner = *corner;
-  return std::nullopt;
+  if (!corner) return std::nullopt;
+  after.corner = *corner;
+  return after;
+}
+
+bool settled(const State& before, const State& after) {
+  bool out = (before.corner.corner_m - after.corner.corner_m).norm() < settled_m;
+  for (int k = 0; k < 3; ++k)
+    out &= (before.corner.planes[k].normal - after.corner.planes[k].normal).norm() < settled_rad;
+  return out;
+}
+
+/// Selects and improves until nothing changes or `passes` are done.
+struct Iterated {
+  State state;
+  FacetMembers members;
+  int passes = 0;
+};
+Result<Iterated> iterate(const FacetNeighbourhood& about, FacetSelection selection,
+                         const FacetFitOptions& options, const State& start, int passes) {
+  Iterated out{start, {}, 0};
+  while (out.passes < passes) {
+    selection.gate_m = out.state.gate_m;
+    out.members = select_facet_points(about.points, out.state.corner, selection);
+    if (auto refusal = check_members(out.members, options.min_points)) return *refusal;
+    const auto next = improve(points_of(about, out.members), options, out.state);
+    if (!next) return Refusal{RefusalCode::no_die, "the facets' planes do not meet in one corner"};
+    const bool done = settled(out.state, *next);
+    out.state = *next;
+    ++out.passes;
+    if (done) break;
+  }
+  return out;
 }
 
 /// A point outside the corner from which all three facets are seen, far away.
@@ -98,19 +138,47 @@ double shortest(const std::array<FacetExtent, 3>& extents) {
   return out;
 }
 
-std::array<Eigen::Vector2d, 3> lengths_of(const std::array<FacetExtent, 3>& extents) {
-  return {extents[0].length_m, extents[1].length_m, extents[2].length_m};
+std::array<Eigen::Vector2d, 3> borders_of(const std::array<FacetExtent, 3>& extents) {
+  return {extents[0].border_m, extents[1].border_m, extents[2].border_m};
 }
 
-/// Each edge is seen by two facets; the weighted mean of what they say.
+/// Each edge is seen by two facets: the weighted mean of what they say. Spacing averages out, what
+/// the silhouette hides does not.
 void combine_edges(FacetFits& out) {
   for (int j = 0; j < 3; ++j) {
     const FacetExtent &first = out.extents[(j + 2) % 3], &second = out.extents[(j + 1) % 3];
-    const double w0 = 1 / std::pow(first.length_sd_m[0], 2);
-    const double w1 = 1 / std::pow(second.length_sd_m[1], 2);
+    const double w0 = 1 / std::pow(first.sampling_sd_m[0], 2);
+    const double w1 = 1 / std::pow(second.sampling_sd_m[1], 2);
     out.edges_m[j] = (w0 * first.length_m[0] + w1 * second.length_m[1]) / (w0 + w1);
-    out.edges_sd_m[j] = 1 / std::sqrt(w0 + w1);
+    const double hidden = std::max(first.hidden_sd_m[0], second.hidden_sd_m[1]);
+    out.edges_sd_m[j] = std::sqrt(1 / (w0 + w1) + hidden * hidden);
   }
+}
+
+/// Edge radius, extents and the trim that they ask for, from planes that the borders did not touch.
+void measure_body(const FacetNeighbourhood& about, const FacetFitOptions& options,
+                  ExtentOptions extent_options, const std::array<Eigen::Vector2d, 3>& lengths_m,
+                  const State& state, FacetFits& out) {
+  out.edge_radius_m =
+      options.edge_radius_m.value_or(estimate_edge_radius(about.points, state.corner, lengths_m));
+  extent_options.edge_radius_m = out.edge_radius_m;
+  extent_options.outside_gate_m = *std::max_element(state.gate_m.begin(), state.gate_m.end()) / 2;
+  out.extents = measure_extents(about.points, state.corner, lengths_m, extent_options);
+  combine_edges(out);
+  const double least = std::min(options.least_trim_m, shortest(out.extents) / 15);
+  out.trim_m = options.trim_m.value_or(std::max({out.edge_radius_m, options.footprint_m, least}));
+}
+
+void fit_members(const Members& members, const FacetFitOptions& options, const FacetCorner& corner,
+                 FacetFits& out) {
+  std::array<Plane, 3> planes;
+  for (int k = 0; k < 3; ++k) {
+    out.fits[k] = fit_plane(members[k], options.fit);
+    if (out.fits[k].plane.normal.dot(corner.planes[k].normal) < 0)
+      out.fits[k] = flipped(out.fits[k]);
+    planes[k] = out.fits[k].plane;
+  }
+  out.corner = facet_corner(planes).value_or(corner);
 }
 
 }  // namespace
@@ -122,7 +190,7 @@ Result<FacetFits> fit_facets(const Cloud& cloud, const std::array<PlaneRegion, 3
     throw usage_error("facet fit: selection by rays needs the scanner's position");
   const auto first = facet_corner(outward_planes(regions, scanner));
   if (!first) return Refusal{RefusalCode::no_die, "the three planes do not meet in one corner"};
-  State state{*first, {}, {}, {}};
+  State state{*first, {}};
   const auto rough = rough_lengths(cloud, state.corner, regions);
   double edge = rough[0].minCoeff();
   for (const Eigen::Vector2d& lengths : rough) edge = std::min(edge, lengths.minCoeff());
@@ -140,33 +208,25 @@ Result<FacetFits> fit_facets(const Cloud& cloud, const std::array<PlaneRegion, 3
 
   FacetSelection selection;
   selection.domain = domain_of(options);
-  selection.scanner_position = scanner.value_or(lookout(state.corner));
-  selection.lengths_m = lengths_of(out.extents);
+  selection.scanner_position = extent_options.scanner_position;
+  selection.lengths_m = borders_of(out.extents);
   selection.trim_m = interior_share * shortest(out.extents);
   state.gate_m.fill(depth_share * edge);
-  if (auto refusal = select_and_fit(about, selection, options, state)) return *refusal;
-  out.edge_radius_m = options.edge_radius_m.value_or(
-      estimate_edge_radius(about.points, state.corner, selection.lengths_m));
-  extent_options.edge_radius_m = out.edge_radius_m;
-  out.extents = measure_extents(about.points, state.corner, selection.lengths_m, extent_options);
-  combine_edges(out);
+  const auto interior = iterate(about, selection, options, state, interior_passes);
+  if (!interior) return interior.refusal();
+  state = interior->state;
+  measure_body(about, options, extent_options, selection.lengths_m, state, out);
 
-  const double least = std::min(options.least_trim_m, shortest(out.extents) / 15);
-  out.trim_m = options.trim_m.value_or(std::max({out.edge_radius_m, options.footprint_m, least}));
   selection.trim_m = out.trim_m;
-  selection.lengths_m = lengths_of(out.extents);
+  selection.lengths_m = borders_of(out.extents);
   selection.nearest_plane = options.nearest_plane;
   selection.masks = options.masks;
-  auto previous = state.members;
-  do {
-    previous = state.members;
-    if (auto refusal = select_and_fit(about, selection, options, state)) return *refusal;
-  } while (++out.iterations < max_iterations && state.members != previous);
-
-  out.corner = state.corner;
-  out.fits = state.fits;
+  const auto result = iterate(about, selection, options, state, max_iterations);
+  if (!result) return result.refusal();
+  out.iterations = result->passes;
+  fit_members(points_of(about, result->members), options, result->state.corner, out);
   for (int k = 0; k < 3; ++k)
-    for (const std::uint32_t i : state.members[k]) out.indices[k].push_back(about.indices[i]);
+    for (const std::uint32_t i : result->members[k]) out.indices[k].push_back(about.indices[i]);
   return out;
 }
 

@@ -44,8 +44,8 @@ std::array<Eigen::Vector2d, 3> rough_lengths(const Cloud& cloud, const FacetCorn
   for (int k = 0; k < 3; ++k) {
     std::array<std::vector<double>, 2> along;
     for (const std::uint32_t i : regions[k].indices) {
-      const FacetPlace place = *placer.place(k, cloud.positions[i]);
-      for (int axis = 0; axis < 2; ++axis) along[axis].push_back(place.uv_m[axis]);
+      const Eigen::Vector2d uv = placer.uv_m(k, cloud.positions[i], {});
+      for (int axis = 0; axis < 2; ++axis) along[axis].push_back(uv[axis]);
     }
     for (int axis = 0; axis < 2; ++axis) {
       if (along[axis].empty()) return {};

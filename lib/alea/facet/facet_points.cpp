@@ -31,23 +31,23 @@ std::vector<FacetDisc> pip_discs(int pips, const Eigen::Vector2d& lengths_m, dou
   return discs;
 }
 
-std::array<std::vector<std::uint32_t>, 3> select_facet_points(
-    std::span<const Eigen::Vector3d> points, const FacetCorner& corner,
-    const FacetSelection& selection) {
+FacetMembers select_facet_points(std::span<const Eigen::Vector3d> points, const FacetCorner& corner,
+                                 const FacetSelection& selection) {
   const FacetPlacer placer(corner, selection.domain, selection.scanner_position);
-  std::array<std::vector<std::uint32_t>, 3> members;
+  std::array<Eigen::Array2d, 3> low, high;
   for (int k = 0; k < 3; ++k) {
-    const double margin = selection.trim_m / corner_sine(corner, k);
-    const Eigen::Array2d low = Eigen::Array2d::Constant(margin);
-    const Eigen::Array2d high = selection.lengths_m[k].array() - margin;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const auto place = placer.place(k, points[i]);
-      if (!place || (selection.nearest_plane && !place->nearest)) continue;
-      if (std::abs(place->height_m) > selection.gate_m[k]) continue;
-      const Eigen::Array2d uv = place->uv_m.array();
-      if ((uv < low).any() || (uv > high).any() || masked(selection.masks[k], place->uv_m))
-        continue;
-      members[k].push_back(static_cast<std::uint32_t>(i));
+    low[k].setConstant(selection.trim_m / corner_sine(corner, k));
+    high[k] = selection.lengths_m[k].array() - low[k];
+  }
+  FacetMembers members;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const PlacedPoint placed = placer.approach(points[i]);
+    for (int k = 0; k < 3; ++k) {
+      if (selection.nearest_plane && k != placed.nearest) continue;
+      if (std::abs(placed.height_m[k]) > selection.gate_m[k] || !placed.meets[k]) continue;
+      const Eigen::Vector2d uv = placer.uv_m(k, points[i], placed);
+      if ((uv.array() < low[k]).any() || (uv.array() > high[k]).any()) continue;
+      if (!masked(selection.masks[k], uv)) members[k].push_back(static_cast<std::uint32_t>(i));
     }
   }
   return members;

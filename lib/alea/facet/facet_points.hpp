@@ -33,10 +33,12 @@ struct FacetSelection {
   std::array<std::vector<FacetDisc>, 3> masks;
 };
 
+/// Members of the three facets, as indices into the points, ascending.
+using FacetMembers = std::array<std::vector<std::uint32_t>, 3>;
+
 /// Indices into `points` (m) of each facet's members, ascending. In the ray domain only the gate
 /// looks at the measured range; at 4 standard deviations and centred on the plane it does not bias.
-std::array<std::vector<std::uint32_t>, 3> select_facet_points(
-    std::span<const Eigen::Vector3d> points, const FacetCorner& corner,
-    const FacetSelection& selection);
+FacetMembers select_facet_points(std::span<const Eigen::Vector3d> points, const FacetCorner& corner,
+                                 const FacetSelection& selection);
 
 }  // namespace alea

@@ -56,6 +56,11 @@ struct PlaneFit {
 /// position.
 PlaneFit fit_plane(std::span<const Eigen::Vector3d> points, const PlaneFitOptions& options);
 
+/// One pass of the same fit from a plane that is nearly right: what an iteration that selects
+/// points again after each pass needs.
+Plane improve_plane(std::span<const Eigen::Vector3d> points, const Plane& start,
+                    const PlaneFitOptions& options);
+
 /// The same plane with its normal to the other side; tangent and covariance follow.
 PlaneFit flipped(const PlaneFit& fit);
 
