@@ -29,6 +29,7 @@ int run(int argc, char** argv) {
   for (const AddSubcommand add : {
            add_info,
            add_convert,
+           add_evaluate,
            add_acceptance,
            add_reproduce,
        })

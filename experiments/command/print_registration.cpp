@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "experiments/command/registration_json.hpp"
+
+namespace alea::command {
+namespace {
+
+constexpr double deg_per_rad = 180 / std::numbers::pi;
+
+void print_transform(const Registration& registration) {
+  const RigidTransform& t = *registration.master_from_slave;
+  fmt::print("registered by {}\nmaster_from_slave (p_master = R p_slave + t, metres)\n",
+             registration.method);
+  const Eigen::Matrix4d m = t.matrix();
+  for (int i = 0; i < 4; ++i)
+    fmt::print("  {:13.9f} {:13.9f} {:13.9f} {:14.6f}\n", m(i, 0), m(i, 1), m(i, 2), m(i, 3));
+  const Eigen::Vector3d angles = omega_phi_kappa_rad(t.rotation) * deg_per_rad;
+  fmt::print("  omega, phi, kappa (deg; R = Rz(kappa) Ry(phi) Rx(omega)): {:.5f} {:.5f} {:.5f}\n",
+             angles.x(), angles.y(), angles.z());
+  if (!registration.covariance) return;
+  const Vector6d sd = registration.covariance->covariance.diagonal().cwiseSqrt();
+  const Eigen::Vector3d& about = registration.covariance->about_m;
+  fmt::print(
+      "  standard deviation: rotation {:.5f} {:.5f} {:.5f} deg, translation {:.3f} {:.3f} {:.3f} "
+      "mm, about "
+      "({:.3f}, {:.3f}, {:.3f}) m\n",
+      sd[0] * deg_per_rad, sd[1] * deg_per_rad, sd[2] * deg_per_rad, sd[3] * 1e3, sd[4] * 1e3,
+      sd[5] * 1e3, about.x(), about.y(), about.z());
+}
+
+void print_die(const DieReport& die) {
+  fmt::print("die\n");
+  for (const FacetReport& facet : die.facets)
+    fmt::print("  {:<6} facet {} ({} points, {:.2f} mm RMSE, pip probability {:.4f})\n",
+               facet.in_master ? "master" : "slave", facet.pips, facet.points, facet.rmse_m * 1e3,
+               facet.pip_probability);
+  const auto print_angles = [](const char* scan, const std::map<std::string, double>& angles_rad) {
+    fmt::print("  {:<6} angles", scan);
+    for (const auto& [edge, angle] : angles_rad)
+      fmt::print("  {}: {:.3f} deg", edge, angle * deg_per_rad);
+    fmt::print("\n");
+  };
+  print_angles("master", die.angles_master_rad);
+  print_angles("slave", die.angles_slave_rad);
+  if (die.shared_edge && die.edge_m)
+    fmt::print("  edge {}: {:.5f} m{}\n", *die.shared_edge, *die.edge_m,
+               die.calibrated ? " (calibrated)" : "");
+}
+
+}  // namespace
+
+void print_check_planes(const std::vector<CheckPlane>& planes) {
+  if (planes.empty()) return;
+  fmt::print("planes that both scans see (mm; offset = slave minus master)\n");
+  fmt::print("  {:>3} {:<11} {:>9} {:>9} {:>8} {:>8} {:>8} {:>8} {:>10}\n", "id", "role",
+             "points M", "points S", "alone M", "alone S", "union", "offset", "tilt (deg)");
+  for (const CheckPlane& plane : planes)
+    fmt::print("  {:>3} {:<11} {:>9} {:>9} {:>8.2f} {:>8.2f} {:>8.2f} {:>8.2f} {:>10.4f}\n",
+               plane.id, plane.role == CheckPlaneRole::check ? "check" : "calibration",
+               plane.points_master, plane.points_slave, plane.alone_master_m * 1e3,
+               plane.alone_slave_m * 1e3, plane.union_m * 1e3, plane.offset_m * 1e3,
+               plane.tilt_rad * deg_per_rad);
+}
+
+void print_registration(const Registration& registration) {
+  for (const std::string& warning : registration.warnings)
+    fmt::print(stderr, "alea: warning: {}\n", warning);
+  if (!registration.master_from_slave) return;
+  print_transform(registration);
+  if (registration.die) print_die(*registration.die);
+  print_check_planes(registration.check_planes);
+}
+
+}  // namespace alea::command

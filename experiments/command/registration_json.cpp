@@ -1,0 +1,143 @@
+#include "experiments/command/registration_json.hpp"
+
+#include <numbers>
+
+#include "alea/core/version.hpp"
+
+namespace alea::command {
+namespace {
+
+using nlohmann::json;
+
+constexpr double deg_per_rad = 180 / std::numbers::pi;
+
+template <typename Derived>
+json vector_json(const Eigen::MatrixBase<Derived>& v) {
+  json out = json::array();
+  for (Eigen::Index i = 0; i < v.size(); ++i) out.push_back(v(i));
+  return out;
+}
+
+template <typename Derived>
+json matrix_json(const Eigen::MatrixBase<Derived>& m) {
+  json out = json::array();
+  for (Eigen::Index i = 0; i < m.rows(); ++i) out.push_back(vector_json(m.row(i)));
+  return out;
+}
+
+template <typename T>
+json optional_json(const std::optional<T>& value) {
+  return value ? json(*value) : json(nullptr);
+}
+
+json transform_json(const Registration& registration) {
+  if (!registration.master_from_slave) return nullptr;
+  const RigidTransform& t = *registration.master_from_slave;
+  const auto& covariance = registration.covariance;
+  const Eigen::Quaterniond q(t.rotation);
+  const double sign = q.w() < 0 ? -1 : 1;
+  return {{"matrix", matrix_json(t.matrix())},
+          {"covariance", covariance ? matrix_json(covariance->covariance) : json(nullptr)},
+          {"covariance_about_m",
+           vector_json(covariance ? covariance->about_m : Eigen::Vector3d::Zero().eval())},
+          {"omega_phi_kappa_deg", vector_json(omega_phi_kappa_rad(t.rotation) * deg_per_rad)},
+          {"translation_m", vector_json(t.translation)},
+          {"quaternion_wxyz", {sign * q.w(), sign * q.x(), sign * q.y(), sign * q.z()}}};
+}
+
+json angles_json(const std::map<std::string, double>& angles_rad) {
+  json out = json::object();
+  for (const auto& [edge, angle] : angles_rad) out[edge] = angle * deg_per_rad;
+  return out;
+}
+
+json facet_json(const FacetReport& facet) {
+  return {{"scan", facet.in_master ? "master" : "slave"},
+          {"pips", facet.pips},
+          {"points", facet.points},
+          {"normal", vector_json(facet.plane.normal)},
+          {"offset_m", facet.plane.offset_m},
+          {"rmse_m", facet.rmse_m},
+          {"pip_probability", facet.pip_probability},
+          {"variance_factor", facet.variance_factor}};
+}
+
+json die_json(const DieReport& die) {
+  json facets = json::array();
+  for (const FacetReport& facet : die.facets) facets.push_back(facet_json(facet));
+  return {
+      {"shared_edge", optional_json(die.shared_edge)},
+      {"edge_m", optional_json(die.edge_m)},
+      {"edges_m", die.edges_m},
+      {"calibrated", die.calibrated},
+      {"facets", facets},
+      {"angles_deg",
+       {{"master", angles_json(die.angles_master_rad)},
+        {"slave", angles_json(die.angles_slave_rad)}}},
+      {"corner_m",
+       {{"master", vector_json(die.corner_master_m)}, {"slave", vector_json(die.corner_slave_m)}}}};
+}
+
+}  // namespace
+
+json check_plane_json(const CheckPlane& plane) {
+  return {{"id", plane.id},
+          {"centroid_m", vector_json(plane.centroid_m)},
+          {"normal", vector_json(plane.normal)},
+          {"points_master", plane.points_master},
+          {"points_slave", plane.points_slave},
+          {"alone_master_m", plane.alone_master_m},
+          {"alone_slave_m", plane.alone_slave_m},
+          {"union_m", plane.union_m},
+          {"slave_to_master_m", plane.slave_to_master_m},
+          {"offset_m", plane.offset_m},
+          {"tilt_rad", plane.tilt_rad},
+          {"role", plane.role == CheckPlaneRole::check ? "check" : "calibration"}};
+}
+
+json registration_json(const Registration& registration, std::uint64_t seed) {
+  json planes = json::array();
+  for (const CheckPlane& plane : registration.check_planes)
+    planes.push_back(check_plane_json(plane));
+  json timing = json::object();
+  for (const auto& [stage, seconds] : registration.timing_s) timing[stage] = seconds;
+  json refusal = nullptr;
+  if (registration.refusal)
+    refusal = {{"code", to_string(registration.refusal->code)},
+               {"message", registration.refusal->message}};
+  json ambiguity = nullptr;
+  if (registration.ambiguity)
+    ambiguity = {{"alternatives", registration.ambiguity->alternatives},
+                 {"log_likelihood_margin", registration.ambiguity->log_likelihood_margin}};
+  return {{"alea", version()},
+          {"status", registration.refusal ? "refused" : "registered"},
+          {"refusal", refusal},
+          {"method", registration.method},
+          {"seed", seed},
+          {"warnings", registration.warnings},
+          {"master_from_slave", transform_json(registration)},
+          {"die", registration.die ? die_json(*registration.die) : json(nullptr)},
+          {"ambiguity", ambiguity},
+          {"check_planes", planes},
+          {"timing_s", timing}};
+}
+
+int finish_registrations(const CommonOptions& options,
+                         const std::vector<Registration>& registrations) {
+  json document = registration_json(registrations.front(), options.seed);
+  if (registrations.size() > 1) {
+    json all = json::array();
+    for (const Registration& registration : registrations)
+      all.push_back(registration_json(registration, options.seed));
+    document["registrations"] = std::move(all);
+  }
+  write_json(options, document);
+  int exit_code = exit_done;
+  for (const Registration& registration : registrations) {
+    if (options.json != "-") print_registration(registration);
+    if (registration.refusal) exit_code = report_refusal(*registration.refusal);
+  }
+  return exit_code;
+}
+
+}  // namespace alea::command

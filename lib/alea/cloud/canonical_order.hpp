@@ -1,0 +1,11 @@
+#pragma once
+
+#include "alea/core/cloud.hpp"
+
+namespace alea {
+
+/// The same cloud with its points sorted by x, y, z, then every other field. Whatever is computed
+/// from the sorted cloud cannot depend on the order of the points in the file.
+Cloud canonical_order(const Cloud& cloud);
+
+}  // namespace alea

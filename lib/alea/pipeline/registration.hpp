@@ -1,0 +1,59 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "alea/core/refusal.hpp"
+#include "alea/core/rigid_transform.hpp"
+#include "alea/evaluate/check_planes.hpp"
+
+namespace alea {
+
+/// One facet as a scan saw it, in that scan's own frame.
+struct FacetReport {
+  bool in_master = true;
+  int pips = 0;
+  std::size_t points = 0;
+  Plane plane;        ///< normal outward
+  double rmse_m = 0;  ///< along the normal
+  double pip_probability = 0;
+  double variance_factor = 1;  ///< of the assumed noise
+};
+
+/// What was learnt of the die. Edge "i-j", i < j, is where the facets with i and j pips meet.
+struct DieReport {
+  std::optional<std::string> shared_edge;
+  std::optional<double> edge_m;           ///< length of the shared edge from corner to corner
+  std::map<std::string, double> edges_m;  ///< seen or calibrated edges only
+  bool calibrated = false;
+  std::vector<FacetReport> facets;
+  std::map<std::string, double>
+      angles_master_rad;  ///< dihedral inside the die between the facets named
+  std::map<std::string, double> angles_slave_rad;
+  Eigen::Vector3d corner_master_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d corner_slave_m = Eigen::Vector3d::Zero();
+};
+
+struct AmbiguityReport {
+  int alternatives = 0;              ///< other orientations that the data support about as well
+  double log_likelihood_margin = 0;  ///< of the answer over the runner-up
+};
+
+/// The result of any registration of two scans.
+struct Registration {
+  std::string method;
+  std::optional<Refusal> refusal;     ///< then there is no transform
+  std::vector<std::string> warnings;  ///< "code: text"
+  std::optional<RigidTransform> master_from_slave;
+  std::optional<TransformCovariance> covariance;  ///< left perturbation in the master frame
+  std::optional<DieReport> die;
+  std::optional<AmbiguityReport> ambiguity;
+  std::vector<CheckPlane> check_planes;
+  std::vector<std::pair<std::string, double>> timing_s;  ///< stages in order, "total" last
+};
+
+}  // namespace alea
