@@ -55,6 +55,10 @@ void refuse_known(const InputFile& file, const std::string& extension) {
   if (extension == "obj") refuse("OBJ (a mesh)", "export the points as PLY");
 }
 
+bool keeps_poses(const std::string& extension) {
+  return extension == "ptx" || extension == "e57";
+}
+
 std::vector<ScanFile> read_format(const InputFile& file, const ReadOptions& options) {
   const std::string_view bytes = file.bytes();
   const std::string extension = extension_of(file.path());
@@ -96,15 +100,22 @@ void write_cloud(const std::string& path, const Cloud& cloud) {
   if (extension == "ply") return write_ply(path, cloud);
   if (extension == "pcd") return write_pcd(path, cloud);
   if (is_text(extension)) return write_xyz(path, cloud, extension == "csv" ? ',' : ' ');
+  if (keeps_poses(extension)) return write_scans(path, {{cloud, std::nullopt, "", {}}});
   throw input_error(
-      fmt::format("{}: cannot write format '{}'; expected ply, pcd, xyz, txt, csv or "
-                  "asc",
+      fmt::format("{}: cannot write format '{}'; expected ply, pcd, xyz, txt, csv, asc, ptx or e57",
                   path, extension));
 }
 
 void write_scans(const std::string& path, const std::vector<ScanFile>& scans,
                  const ReadOptions& options) {
-  write_cloud(path, merged_scans(scans, options));
+  const std::string extension = extension_of(path);
+  if (!keeps_poses(extension)) return write_cloud(path, merged_scans(scans, options));
+  std::vector<ScanFile> moved;
+  for (const ScanFile& scan : scans)
+    if (options.apply_pose)
+      moved.push_back({merged_scans({scan}, options), std::nullopt, scan.name, {}});
+  const std::vector<ScanFile>& out = options.apply_pose ? moved : scans;
+  extension == "ptx" ? write_ptx(path, out) : write_e57(path, out);
 }
 
 }  // namespace alea

@@ -25,13 +25,14 @@ Cloud read_cloud(const std::string& path, const ReadOptions& options = {});
 /// determinant, and the last row is 0 0 0 1.
 bool is_rigid(const Eigen::Matrix4d& pose);
 
-/// Writes one cloud in the format of the extension (ply, pcd, xyz, txt, csv, asc), whole or not at
-/// all. Coordinates keep every bit: as float where that is exact, else as double.
-/// Throws Error(input) where the file cannot be written or the format cannot hold a cloud.
+/// Writes one cloud in the format of the extension (ply, pcd, xyz, txt, csv, asc, ptx, e57), whole
+/// or not at all. Coordinates keep every bit: as float where that is exact, else as double. Throws
+/// Error(input) where the file cannot be written or the format cannot hold a cloud.
 void write_cloud(const std::string& path, const Cloud& cloud);
 
-/// The same for several scans with their poses; formats with room for one cloud in one frame get
-/// merged_scans(scans, options).
+/// The same for several scans. E57 and PTX keep each scan in its own frame with its pose, unless
+/// options.apply_pose moves them into the common one; the other formats have room for one cloud and
+/// get merged_scans(scans, options).
 void write_scans(const std::string& path, const std::vector<ScanFile>& scans,
                  const ReadOptions& options = {});
 

@@ -32,13 +32,20 @@ std::vector<ScanFile> read_pts(const InputFile& file, const ReadOptions& options
 /// Leica PTX: scans of columns times rows points in the scanner's frame, column by column, each
 /// with its pose; a point at 0 0 0 is a missing return.
 std::vector<ScanFile> read_ptx(const InputFile& file, const ReadOptions& options);
+/// Keeps intensity (0.5 where there is none) and colours to 8 bits; a cloud whose rows and columns
+/// do not make a grid becomes one column. 0 0 0, which the format keeps for missing returns, is
+/// written as 1e-300 0 0.
+void write_ptx(const std::string& path, const std::vector<ScanFile>& scans);
 
 /// E57 (ASTM E2807-11): every scan in its own frame with its pose. Not read: images, blobs, point
 /// groups, intensity and colour flags.
 std::vector<ScanFile> read_e57(const InputFile& file, const ReadOptions& options);
+/// Points untouched, the pose beside them. Throws Error(input) for a pose that is not rigid, which
+/// the format cannot hold.
+void write_e57(const std::string& path, const std::vector<ScanFile>& scans);
 
 /// LAS 1.0 to 1.4, point formats 0 to 10 (ASPRS, LAS specification 1.4 R15). All points are kept,
-/// also those that are flagged as withheld.
+/// also those that are flagged as withheld; colours of which none exceeds 255 are taken as 8-bit.
 ScanFile read_las(const InputFile& file, const ReadOptions& options);
 
 }  // namespace alea

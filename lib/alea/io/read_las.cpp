@@ -10,6 +10,7 @@
 #include "alea/io/cloud_sink.hpp"
 #include "alea/io/formats.hpp"
 #include "alea/io/record_columns.hpp"
+#include "alea/io/text_columns.hpp"
 
 namespace alea {
 namespace {
@@ -154,6 +155,8 @@ ScanFile read_las(const InputFile& file, const ReadOptions& options) {
     file.release_before(header.first_point + (first + count) * header.record_size);
   }
   scan.cloud = sink.take();
+  // Many writers leave 8-bit colours in the 16-bit fields.
+  widen_byte_colours(scan.cloud);
   return scan;
 }
 

@@ -130,6 +130,8 @@ ScanFile read_pcd(const InputFile& file, const ReadOptions& options) {
       scan.cloud = read_compressed(file, header, options);
       break;
   }
+  // PDAL writes 8-bit colours of LAS files into 16-bit fields.
+  widen_byte_colours(scan.cloud);
   // The format's default viewpoint is zero, so zero says nothing.
   if (!header.viewpoint.isZero(0)) scan.cloud.scanner_position = header.viewpoint * options.unit_m;
   return scan;
