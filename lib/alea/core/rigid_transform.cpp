@@ -4,13 +4,14 @@
 #include <cmath>
 
 namespace alea {
-namespace {
 
 Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
   Eigen::Matrix3d m;
   m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
   return m;
 }
+
+namespace {
 
 /// The left Jacobian of SO(3): exp([w, v]) has the translation part V(w) v.
 Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& w) {

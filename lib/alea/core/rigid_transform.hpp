@@ -26,6 +26,9 @@ struct RigidTransform {
   static RigidTransform from_matrix(const Eigen::Matrix4d& matrix);
 };
 
+/// The matrix with skew(v) * w = v x w.
+Eigen::Matrix3d skew(const Eigen::Vector3d& v);
+
 /// Angle of a rotation matrix, in [0, pi] rad; accurate near 0 and near pi.
 double rotation_angle_rad(const Eigen::Matrix3d& rotation);
 

@@ -196,12 +196,6 @@ void add_sphere(FisherNormal& system, const FisherScene& scene, const FisherSphe
 
 }  // namespace
 
-Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
 FisherNormal fisher_normal(const FisherScene& scene) {
   const Layout layout = layout_of(scene);
   FisherNormal system;

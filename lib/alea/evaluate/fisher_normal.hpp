@@ -22,7 +22,4 @@ struct FisherNormal {
 
 FisherNormal fisher_normal(const FisherScene& scene);
 
-/// [v]x, so that skew(v) * w = v x w.
-Eigen::Matrix3d skew(const Eigen::Vector3d& v);
-
 }  // namespace alea
