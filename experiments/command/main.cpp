@@ -30,6 +30,7 @@ int run(int argc, char** argv) {
            add_info,
            add_convert,
            add_evaluate,
+           add_simulate,
            add_acceptance,
            add_reproduce,
        })

@@ -43,9 +43,12 @@ std::string as_text(const toml::node& node) {
 
 const char* expectation_of(Allowed allowed) {
   switch (allowed) {
-    case Allowed::positive: return "a positive number";
-    case Allowed::not_negative: return "a number that is not negative";
-    case Allowed::any: break;
+    case Allowed::positive:
+      return "a positive number";
+    case Allowed::not_negative:
+      return "a number that is not negative";
+    case Allowed::any:
+      break;
   }
   return "a finite number";
 }
@@ -85,8 +88,8 @@ TomlTable TomlTable::read(const std::filesystem::path& file) {
   try {
     state->root = std::make_shared<const toml::table>(toml::parse(text.str(), name));
   } catch (const toml::parse_error& error) {
-    throw input_error(fmt::format("{}:{}: not TOML: {}", name, error.source().begin.line,
-                                  error.description()));
+    throw input_error(
+        fmt::format("{}:{}: not TOML: {}", name, error.source().begin.line, error.description()));
   }
   state->table = state->root.get();
   state->file = name;
@@ -139,12 +142,29 @@ std::size_t TomlTable::choice(const std::string& key, std::size_t missing,
   return static_cast<std::size_t>(found - words.begin());
 }
 
+std::vector<std::string> TomlTable::texts(const std::string& key) const {
+  std::vector<std::string> out;
+  const toml::node* node = state_->find(key);
+  if (node == nullptr) return out;
+  if (!node->is_array()) fail(key, "texts in quotes [\"...\", \"...\"]");
+  for (const toml::node& element : *node->as_array()) {
+    if (!element.is_string()) fail(key, "texts in quotes [\"...\", \"...\"]");
+    out.push_back(*element.value<std::string>());
+  }
+  return out;
+}
+
 Eigen::Vector3d TomlTable::vector3(const std::string& key, const Eigen::Vector3d& missing) const {
   const toml::node* node = state_->find(key);
   if (node == nullptr) return missing;
   const auto numbers = numbers_of(*node, 3);
   if (!numbers) fail(key, "three finite numbers [x, y, z]");
   return {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+}
+
+Eigen::Vector3d TomlTable::vector3(const std::string& key) const {
+  require(key);
+  return vector3(key, Eigen::Vector3d::Zero());
 }
 
 Eigen::Vector2d TomlTable::interval(const std::string& key, const Eigen::Vector2d& missing) const {
@@ -174,7 +194,8 @@ std::vector<TomlTable> TomlTable::tables(const std::string& key) const {
   std::vector<TomlTable> out;
   if (node == nullptr) return out;
   const toml::array* array = node->as_array();
-  if (array == nullptr || !array->is_array_of_tables()) fail(key, fmt::format("tables [[{}]]", key));
+  if (array == nullptr || !array->is_array_of_tables())
+    fail(key, fmt::format("tables [[{}]]", key));
   for (const toml::node& element : *array) {
     auto state = std::make_unique<State>();
     state->root = state_->root;
@@ -196,8 +217,7 @@ void TomlTable::finish() const {
     const std::string name(key.str());
     if (!state_->asked.contains(name))
       throw input_error(fmt::format("{}:{}: unknown key '{}'; known here: {}", state_->file,
-                                    key.source().begin.line, name,
-                                    fmt::join(state_->asked, ", ")));
+                                    key.source().begin.line, name, fmt::join(state_->asked, ", ")));
   }
 }
 
@@ -205,10 +225,9 @@ void TomlTable::fail(const std::string& key, const std::string& expectation) con
   const toml::node* node = key.empty() ? nullptr : state_->table->get(key);
   const std::string prefix = state_->name.empty() ? "" : state_->name + ".";
   if (node == nullptr)
-    throw input_error(fmt::format("{}:{}: {}: expected {}", state_->file, state_->line,
-                                  key.empty() ? (state_->name.empty() ? "file" : state_->name)
-                                              : prefix + key,
-                                  expectation));
+    throw input_error(fmt::format(
+        "{}:{}: {}: expected {}", state_->file, state_->line,
+        key.empty() ? (state_->name.empty() ? "file" : state_->name) : prefix + key, expectation));
   throw input_error(fmt::format("{}:{}: {}{} = {}; expected {}", state_->file,
                                 node->source().begin.line, prefix, key, as_text(*node),
                                 expectation));

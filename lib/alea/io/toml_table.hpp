@@ -34,7 +34,11 @@ class TomlTable {
   /// One of the given words; returns its position.
   std::size_t choice(const std::string& key, std::size_t missing,
                      const std::vector<std::string>& words) const;
+  /// Texts in quotes [..]; empty where missing.
+  std::vector<std::string> texts(const std::string& key) const;
   Eigen::Vector3d vector3(const std::string& key, const Eigen::Vector3d& missing) const;
+  /// The same for a key that must be there.
+  Eigen::Vector3d vector3(const std::string& key) const;
   /// Two numbers, the first not above the second.
   Eigen::Vector2d interval(const std::string& key, const Eigen::Vector2d& missing) const;
 

@@ -68,6 +68,13 @@ DieFacet build_facet(const DieModel& model, int facet, const Plane& plane) {
   return out;
 }
 
+void check_neighbours(int pips_a, int pips_b) {
+  if (pips_a < 1 || pips_a > 6 || pips_b < 1 || pips_b > 6 || pips_a == pips_b ||
+      pips_a + pips_b == 7)
+    throw usage_error(
+        fmt::format("facets {} and {}: name two of 1 to 6 that meet in an edge", pips_a, pips_b));
+}
+
 void check_sizes(const DieModel& model) {
   if (!(model.size_m.minCoeff() > 0) || !model.size_m.allFinite())
     throw usage_error(fmt::format("die: sizes {} x {} x {} m; give three positive lengths",
@@ -103,6 +110,17 @@ std::array<Plane, 6> die_planes(const DieModel& model) {
   return planes;
 }
 
+RigidTransform standing_pose(Chirality chirality, int pips_up, int pips_front,
+                             double front_azimuth_rad, const Eigen::Vector3d& centre_m) {
+  check_neighbours(pips_up, pips_front);
+  const std::array<Eigen::Vector3d, 6> normals = nominal_normals(chirality);
+  const Eigen::Vector3d up = normals[pips_up - 1], front = normals[pips_front - 1];
+  Eigen::Matrix3d upright_from_die;  // front to x, up to z
+  upright_from_die << front.transpose(), up.cross(front).transpose(), up.transpose();
+  const Eigen::AngleAxisd turn(front_azimuth_rad, Eigen::Vector3d::UnitZ());
+  return {turn * upright_from_die, centre_m};
+}
+
 Die build_die(const DieModel& model) {
   check_sizes(model);
   std::array<Plane, 6> planes = die_planes(model);
@@ -120,9 +138,7 @@ Die build_die(const DieModel& model) {
 }
 
 double edge_length_m(const Hexahedron& body, int pips_a, int pips_b) {
-  if (pips_a < 1 || pips_a > 6 || pips_b < 1 || pips_b > 6 || pips_a == pips_b ||
-      pips_a + pips_b == 7)
-    throw usage_error(fmt::format("edge {}-{}: name two facets 1 to 6 that meet", pips_a, pips_b));
+  check_neighbours(pips_a, pips_b);
   std::vector<Eigen::Vector3d> ends;
   for (int c = 0; c < 8; ++c) {
     const auto facets = facets_of_corner(c);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <string>
 #include <vector>
 
 #include "alea/core/plane.hpp"
@@ -37,6 +38,7 @@ struct PipStyle {
 /// A die before it is built: a cuboid whose six planes are then tilted and shifted, each on its
 /// own. Facet index = pips - 1; opposite facets sum to seven.
 struct DieModel {
+  std::string id = "die";
   /// Distances between the facets 1 and 6, 2 and 5, 3 and 4 (metres).
   Eigen::Vector3d size_m = Eigen::Vector3d::Constant(0.5);
   Chirality chirality = Chirality::clockwise;
@@ -69,6 +71,12 @@ struct Die {
 
 /// The six outward planes of the model in the die frame (facet index = pips - 1).
 std::array<Plane, 6> die_planes(const DieModel& model);
+
+/// The pose of a die that stands upright: the facet with `pips_up` pips looks along scene +z, the
+/// one with `pips_front` to the azimuth `front_azimuth_rad` (from scene x to y), before tilts.
+/// Throws Error(usage) for two equal or opposite facets.
+RigidTransform standing_pose(Chirality chirality, int pips_up, int pips_front,
+                             double front_azimuth_rad, const Eigen::Vector3d& centre_m);
 
 /// Builds the die; the exact kernel checks that its planes close to a convex hexahedron of the
 /// model's hand. Throws Error(usage) where they do not, or where a size is not positive.

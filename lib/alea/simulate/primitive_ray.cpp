@@ -124,4 +124,23 @@ void intersect(const Sphere& sphere, std::uint32_t index, const Ray& ray, Hit& h
          {SurfaceKind::sphere, index, 0}};
 }
 
+void intersect(const Checkerboard& board, std::uint32_t index, const Ray& ray, Hit& hit) {
+  const Eigen::Matrix3d& turn = board.scene_from_board.rotation;
+  const Eigen::Vector3d normal = turn.col(2);
+  const double approach = normal.dot(ray.direction);
+  if (approach == 0) return;
+  const double range = normal.dot(board.scene_from_board.translation - ray.origin) / approach;
+  if (!nearer(range, hit)) return;
+  const Eigen::Vector3d from = ray.at(range) - board.scene_from_board.translation;
+  const double x = turn.col(0).dot(from), y = turn.col(1).dot(from);
+  const Eigen::Vector2d half = half_plate_m(board);
+  if (std::abs(x) > half.x() || std::abs(y) > half.y()) return;
+  const int column = static_cast<int>(std::floor(x / board.cell_m + 0.5 * board.columns));
+  const int row = static_cast<int>(std::floor(y / board.cell_m + 0.5 * board.rows));
+  double intensity = board.plate_intensity;
+  if (column >= 0 && column < board.columns && row >= 0 && row < board.rows)
+    intensity = (column + row) % 2 == 0 ? board.dark_intensity : board.light_intensity;
+  hit = {range, normal, intensity, {SurfaceKind::checkerboard, index, 0}};
+}
+
 }  // namespace alea

@@ -11,6 +11,7 @@ void intersect(const Patch& patch, std::uint32_t index, const Ray& ray, Hit& hit
 void intersect(const Box& box, std::uint32_t index, const Ray& ray, Hit& hit);
 void intersect(const Cylinder& cylinder, std::uint32_t index, const Ray& ray, Hit& hit);
 void intersect(const Sphere& sphere, std::uint32_t index, const Ray& ray, Hit& hit);
+void intersect(const Checkerboard& board, std::uint32_t index, const Ray& ray, Hit& hit);
 
 /// Range (m) at which the line of the ray enters a ball; infinity where it misses.
 double enter_ball(const Ray& ray, const Eigen::Vector3d& centre_m, double radius_m);

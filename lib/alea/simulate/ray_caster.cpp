@@ -58,6 +58,7 @@ RayCaster::RayCaster(const Scene& scene, const Station& station) : scene_(scene)
   add(SurfaceKind::box, scene.boxes, station);
   add(SurfaceKind::cylinder, scene.cylinders, station);
   add(SurfaceKind::sphere, scene.spheres, station);
+  add(SurfaceKind::checkerboard, scene.checkerboards, station);
 }
 
 std::vector<Candidate> RayCaster::candidates(std::int64_t row) const {
@@ -87,6 +88,9 @@ Hit RayCaster::cast(const std::vector<Candidate>& candidates, std::int64_t colum
         break;
       case SurfaceKind::sphere:
         intersect(scene_.spheres[c.index], c.index, ray, hit);
+        break;
+      case SurfaceKind::checkerboard:
+        intersect(scene_.checkerboards[c.index], c.index, ray, hit);
         break;
     }
   }

@@ -17,11 +17,9 @@ StreamKey stream_key(const SimulationKey& key, Purpose purpose) {
 
 ScanNoise::ScanNoise(const Scanner& scanner, const SimulationKey& key)
     : scanner_(scanner),
-      range_(stream_key(key, Purpose::range_noise)),
-      grazing_(stream_key(key, Purpose::grazing_noise)),
-      surface_(stream_key(key, Purpose::surface_noise)),
       angular_(stream_key(key, Purpose::angular_noise)),
-      intensity_(stream_key(key, Purpose::intensity_noise)) {}
+      range_and_grazing_(stream_key(key, Purpose::range_noise)),
+      surface_and_intensity_(stream_key(key, Purpose::surface_noise)) {}
 
 Eigen::Vector2d ScanNoise::angles_rad(std::uint64_t ray) const {
   const double sd = scanner_.noise.angular_noise_rad;
@@ -30,19 +28,21 @@ Eigen::Vector2d ScanNoise::angles_rad(std::uint64_t ray) const {
   return {sd * azimuth, sd * elevation};
 }
 
-double ScanNoise::range_m(std::uint64_t ray, double cos_incidence) const {
+ScanNoise::Error ScanNoise::at(std::uint64_t ray, double cos_incidence) const {
   const NoiseModel& noise = scanner_.noise;
   const double cosine = std::clamp(std::abs(cos_incidence), least_cosine, 1.0);
-  double error = 0;
-  if (noise.range_noise_m > 0) error += noise.range_noise_m * range_.normal_at(ray);
-  if (noise.grazing_m > 0)
-    error += noise.grazing_m * std::sqrt(1 - cosine * cosine) / cosine * grazing_.normal_at(ray);
-  if (noise.surface_m > 0) error += noise.surface_m / cosine * surface_.normal_at(ray);
+  Error error;
+  if (noise.range_noise_m > 0 || noise.grazing_m > 0) {
+    const auto [range, grazing] = range_and_grazing_.normal2_at(ray);
+    const double tangent = std::sqrt(1 - cosine * cosine) / cosine;
+    error.range_m += noise.range_noise_m * range + noise.grazing_m * tangent * grazing;
+  }
+  if (noise.surface_m > 0 || scanner_.intensity_noise > 0) {
+    const auto [surface, intensity] = surface_and_intensity_.normal2_at(ray);
+    error.range_m += noise.surface_m / cosine * surface;
+    error.intensity = scanner_.intensity_noise * intensity;
+  }
   return error;
-}
-
-double ScanNoise::intensity(std::uint64_t ray) const {
-  return scanner_.intensity_noise > 0 ? scanner_.intensity_noise * intensity_.normal_at(ray) : 0;
 }
 
 }  // namespace alea

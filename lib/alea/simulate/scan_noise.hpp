@@ -8,20 +8,26 @@
 
 namespace alea {
 
-/// The random part of a scan: one stream for each cause, read at the number of the ray.
+/// The random part of a scan, read at the number of the ray. Each cause has numbers of its own, so
+/// that switching one off leaves the others' as they were. (Two causes share a stream's pair of
+/// normals: they are independent, and drawing them together halves the time.)
 class ScanNoise {
  public:
   ScanNoise(const Scanner& scanner, const SimulationKey& key);
 
   /// Departure of the beam from the reported azimuth and elevation (rad).
   Eigen::Vector2d angles_rad(std::uint64_t ray) const;
-  /// What the scanner adds to a true range (m) at this cosine of the incidence angle.
-  double range_m(std::uint64_t ray, double cos_incidence) const;
-  double intensity(std::uint64_t ray) const;
+
+  struct Error {
+    double range_m = 0;
+    double intensity = 0;
+  };
+  /// What the scanner adds to a true range and intensity at this cosine of the incidence angle.
+  Error at(std::uint64_t ray, double cos_incidence) const;
 
  private:
   Scanner scanner_;
-  RandomStream range_, grazing_, surface_, angular_, intensity_;
+  RandomStream angular_, range_and_grazing_, surface_and_intensity_;
 };
 
 }  // namespace alea

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <mutex>
 #include <numbers>
+#include <utility>
 
 #include "alea/core/error.hpp"
 #include "alea/core/parallel.hpp"
@@ -46,6 +47,23 @@ std::vector<Eigen::Vector2d> beam_pattern(int rings) {
   return points;
 }
 
+/// The columns in which at least one candidate can be met, as disjoint ascending intervals (ends
+/// included).
+std::vector<std::pair<std::int64_t, std::int64_t>> covered_columns(
+    const std::vector<Candidate>& candidates) {
+  std::vector<std::pair<std::int64_t, std::int64_t>> intervals;
+  for (const Candidate& c : candidates) intervals.emplace_back(c.first_column, c.last_column);
+  std::sort(intervals.begin(), intervals.end());
+  std::vector<std::pair<std::int64_t, std::int64_t>> merged;
+  for (const auto& interval : intervals) {
+    if (merged.empty() || interval.first > merged.back().second + 1)
+      merged.push_back(interval);
+    else
+      merged.back().second = std::max(merged.back().second, interval.second);
+  }
+  return merged;
+}
+
 /// Scans rows of the grid; holds what all rays of a scan share.
 class RowScanner {
  public:
@@ -62,14 +80,9 @@ class RowScanner {
 
   void scan_row(std::int64_t row, bool with_truth, SimulatedScan& out) const {
     const std::vector<Candidate> candidates = caster_.candidates(row);
-    if (candidates.empty()) return;
-    std::int64_t first = candidates[0].first_column, last = candidates[0].last_column;
-    for (const Candidate& c : candidates) {
-      first = std::min(first, c.first_column);
-      last = std::max(last, c.last_column);
-    }
-    for (std::int64_t column = first; column <= last; ++column)
-      measure(candidates, row, column, with_truth, out);
+    for (const auto& [first, last] : covered_columns(candidates))
+      for (std::int64_t column = first; column <= last; ++column)
+        measure(candidates, row, column, with_truth, out);
   }
 
  private:
@@ -96,9 +109,9 @@ class RowScanner {
       intensity = echo.intensity;
     }
     const double cosine = std::abs(hit.normal.dot(centre.direction));
-    range += noise_.range_m(number, cosine);
-    out.cloud.positions.push_back(range * reported);
-    out.cloud.intensity.push_back(static_cast<float>(intensity + noise_.intensity(number)));
+    const ScanNoise::Error error = noise_.at(number, cosine);
+    out.cloud.positions.push_back((range + error.range_m) * reported);
+    out.cloud.intensity.push_back(static_cast<float>(intensity + error.intensity));
     if (with_truth) out.truth.push_back({hit.surface, hit.range_m, cosine});
   }
 

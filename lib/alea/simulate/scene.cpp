@@ -40,6 +40,15 @@ BoundingBall bounding_ball(const Sphere& sphere) {
   return {sphere.centre_m, sphere.radius_m};
 }
 
+BoundingBall bounding_ball(const Checkerboard& board) {
+  return {board.scene_from_board.translation, half_plate_m(board).norm()};
+}
+
+Eigen::Vector2d half_plate_m(const Checkerboard& board) {
+  const Eigen::Vector2d pattern = Eigen::Vector2d(board.columns, board.rows) * board.cell_m;
+  return pattern / 2 + Eigen::Vector2d::Constant(board.margin_m);
+}
+
 RigidTransform levelled_pose(const Eigen::Vector3d& position_m, double heading_rad) {
   return {Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix(), position_m};
 }

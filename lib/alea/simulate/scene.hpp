@@ -49,6 +49,20 @@ struct Sphere {
   double intensity = 0.9;
 };
 
+/// A checkerboard on a flat plate (or, with a wide margin, in a wall), seen from both sides. Board
+/// frame: x along the columns, y along the rows, the pattern's centre at the origin.
+struct Checkerboard {
+  std::string id;
+  RigidTransform scene_from_board;
+  int columns = 2;
+  int rows = 2;
+  double cell_m = 0.075;        ///< side of one square cell
+  double margin_m = 0;          ///< plate beyond the pattern, all around
+  double dark_intensity = 0.1;  ///< cell (0, 0), at the least x and y, is dark
+  double light_intensity = 0.9;
+  double plate_intensity = 0.5;
+};
+
 /// Angles start, start + step, ... up to stop (a share of 1e-9 of a step beyond is still in).
 struct AngleRange {
   double start_rad = 0;
@@ -86,6 +100,7 @@ struct Scene {
   std::vector<Box> boxes;
   std::vector<Cylinder> cylinders;
   std::vector<Sphere> spheres;
+  std::vector<Checkerboard> checkerboards;
   std::vector<Station> stations;
 };
 
@@ -100,6 +115,7 @@ BoundingBall bounding_ball(const Patch& patch);
 BoundingBall bounding_ball(const Box& box);
 BoundingBall bounding_ball(const Cylinder& cylinder);
 BoundingBall bounding_ball(const Sphere& sphere);
+BoundingBall bounding_ball(const Checkerboard& board);
 
 /// Upright pose at `position_m`; the scan's x axis points to `heading_rad` (from scene x to y).
 RigidTransform levelled_pose(const Eigen::Vector3d& position_m, double heading_rad);
@@ -108,6 +124,9 @@ RigidTransform levelled_pose(const Eigen::Vector3d& position_m, double heading_r
 /// sphere-only scan needs. Grid angles are multiples of `step_rad` plus `phase` (shares of a step).
 Station aimed_station(const RigidTransform& scene_from_scan, const BoundingBall& target,
                       double step_rad, const Eigen::Vector2d& phase = Eigen::Vector2d::Zero());
+
+/// Half the size of a checkerboard's plate along its x and y (m).
+Eigen::Vector2d half_plate_m(const Checkerboard& board);
 
 /// The plane of a patch, normal side_u x side_v.
 Plane plane_of(const Patch& patch);
