@@ -11,8 +11,8 @@ namespace alea {
 /// What the exact kernel says about three planes that may be the facets of one convex corner. The
 /// doubles are taken as exact numbers, so every answer is a yes or a no without a tolerance.
 struct CornerDecision {
-  bool single_point = false;  ///< the planes meet in one point
-  bool convex = false;        ///< each facet's centre lies strictly inside the other two planes
+  bool single_point = false;   ///< the planes meet in one point
+  bool convex = false;         ///< each facet's centre lies strictly inside the other two planes
   bool faces_scanner = false;  ///< the scanner lies strictly outside all three (true without one)
   bool accepted() const { return single_point && convex && faces_scanner; }
 };

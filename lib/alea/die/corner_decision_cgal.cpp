@@ -16,17 +16,16 @@ CornerDecision decide_corner(const std::array<Plane, 3>& planes,
   const std::array<Exact::Plane_3, 3> exact{to_exact(planes[0]), to_exact(planes[1]),
                                             to_exact(planes[2])};
   CornerDecision out;
-  out.single_point =
-      CGAL::orientation(exact[0].orthogonal_vector(), exact[1].orthogonal_vector(),
-                        exact[2].orthogonal_vector()) != CGAL::COPLANAR;
+  out.single_point = CGAL::orientation(exact[0].orthogonal_vector(), exact[1].orthogonal_vector(),
+                                       exact[2].orthogonal_vector()) != CGAL::COPLANAR;
   out.convex = out.faces_scanner = true;
   for (int k = 0; k < 3; ++k) {
     for (int j = 0; j < 3; ++j)
-      out.convex &= j == k || exact[k].oriented_side(to_exact_point(centres_m[j])) ==
-                                  CGAL::ON_NEGATIVE_SIDE;
+      out.convex &=
+          j == k || exact[k].oriented_side(to_exact_point(centres_m[j])) == CGAL::ON_NEGATIVE_SIDE;
     if (scanner_position)
-      out.faces_scanner &= exact[k].oriented_side(to_exact_point(*scanner_position)) ==
-                           CGAL::ON_POSITIVE_SIDE;
+      out.faces_scanner &=
+          exact[k].oriented_side(to_exact_point(*scanner_position)) == CGAL::ON_POSITIVE_SIDE;
   }
   return out;
 }

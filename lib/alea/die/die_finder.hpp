@@ -19,7 +19,7 @@ struct DieFinderOptions {
   std::optional<std::array<double, 3>> edges_m;
   std::optional<Eigen::Vector3d> near_m;  ///< the die's centre lies within near_radius_m of it
   double near_radius_m = 0;               ///< 0: twice the longest expected edge
-  double max_size_error = 0.15;           ///< share of the expected edge, beyond 3 sd of the extents
+  double max_size_error = 0.15;  ///< share of the expected edge, beyond 3 sd of the extents
   double max_dihedral_error_rad = 0.3490658503988659;  ///< 20 deg from a right angle
   double min_coverage = 0.6;  ///< share of each facet's area that must carry points
   FacetFitOptions facets;     ///< scanner position, noise and how the facets are fitted
@@ -47,8 +47,8 @@ struct RejectedDie {
 struct DieSearch {
   std::vector<DieCandidate> accepted;  ///< best first
   std::vector<RejectedDie> rejected;   ///< nearest miss first
-  /// Pairs of near-orthogonal, close planes of about the right size: a die of which a third facet is
-  /// missing shows as one.
+  /// Pairs of near-orthogonal, close planes of about the right size: a die of which a third facet
+  /// is missing shows as one.
   std::size_t adjacent_pairs = 0;
 };
 
