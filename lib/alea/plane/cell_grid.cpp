@@ -187,6 +187,12 @@ void CellTable::grow() {
   }
 }
 
+std::uint32_t CellGrid::cell_at(const std::array<std::int32_t, 3>& place) const {
+  for (const std::int32_t p : place)
+    if (p < 0 || p >= places) return CellTable::none;
+  return table.find(CellTable::pack(place[0], place[1], place[2]));
+}
+
 CellGrid make_cell_grid(const std::vector<Eigen::Vector3d>& positions, double cell,
                         double mean_points) {
   CellGrid grid;

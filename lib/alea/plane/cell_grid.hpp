@@ -57,6 +57,13 @@ struct CellGrid {
   std::vector<Cell> cells;
   CellTable table;
 
+  /// The cell at a place, or CellTable::none.
+  std::uint32_t cell_at(const std::array<std::int32_t, 3>& place) const;
+  /// The cell at one of the 27 places around `place` (step 13 is the place itself), or none.
+  std::uint32_t cell_beside(const std::array<std::int32_t, 3>& place, int step) const {
+    return cell_at({place[0] + step % 3 - 1, place[1] + step / 3 % 3 - 1, place[2] + step / 9 - 1});
+  }
+
   double quantum() const { return cell / (1 << quantum_bits); }
   /// Centre of a cell, from the anchor.
   Eigen::Vector3d centre(const Cell& c) const {

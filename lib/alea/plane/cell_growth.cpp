@@ -10,6 +10,21 @@ namespace {
 constexpr std::int32_t no_plane = -1;
 // Below this cosine (30 deg) a leaf with a plane of its own is of another facet.
 constexpr double least_cosine = 0.866;
+// In tolerances: the leaves along a sharp edge fit a bevel of one to two tolerances in breadth.
+constexpr double least_breadth = 2;
+
+bool fits(const PointMoments& moments, const MomentPlane& plane, const Eigen::Vector3d& point,
+          double tolerance) {
+  return moments.mean_square_distance(plane.normal, point) <= tolerance * tolerance / 4;
+}
+
+GrownPlane united(const GrownPlane& a, const GrownPlane& b) {
+  GrownPlane out;
+  out.moments = merged(a.moments, b.moments);
+  out.plane = plane_of(out.moments);
+  out.box = a.box.merged(b.box);
+  return out;
+}
 
 class Growth {
  public:
@@ -40,15 +55,10 @@ class Growth {
     return order;
   }
 
-  bool fits(const PointMoments& moments, const MomentPlane& plane,
-            const Eigen::Vector3d& point) const {
-    const double limit = options_.tolerance / 2;
-    return moments.mean_square_distance(plane.normal, point) <= limit * limit;
-  }
-
   void grow(std::uint32_t seed) {
     const auto id = static_cast<std::int32_t>(planes_.size());
-    GrownPlane grown{tree_.leaves[seed].moments, tree_.leaves[seed].plane};
+    const Leaf& first = tree_.leaves[seed];
+    GrownPlane grown{first.moments, first.plane, Eigen::AlignedBox3d(first.moments.mean)};
     double fitted_count = grown.moments.count;
     std::vector<std::uint32_t> queue{seed};
     plane_of_leaf_[seed] = id;
@@ -60,6 +70,7 @@ class Growth {
         plane_of_leaf_[to] = id;
         queue.push_back(to);
         grown.moments = merged(grown.moments, tree_.leaves[to].moments);
+        grown.box.extend(tree_.leaves[to].moments.mean);
         if (grown.moments.count < 1.2 * fitted_count) continue;
         grown.plane = plane_of(grown.moments);
         fitted_count = grown.moments.count;
@@ -74,7 +85,7 @@ class Growth {
     if (leaf.kind == LeafKind::planar &&
         std::abs(leaf.plane.normal.dot(grown.plane.normal)) < least_cosine)
       return false;
-    return fits(leaf.moments, grown.plane, grown.moments.mean);
+    return fits(leaf.moments, grown.plane, grown.moments.mean, options_.tolerance);
   }
 
   // Pairs of planes whose leaves touch, ascending.
@@ -106,22 +117,12 @@ class Growth {
         const std::int32_t p = std::min(root(a), root(b));
         const std::int32_t q = std::max(root(a), root(b));
         if (p == q) continue;
-        const GrownPlane both = united(planes_[p], planes_[q]);
-        if (!fits(planes_[p].moments, both.plane, both.moments.mean) ||
-            !fits(planes_[q].moments, both.plane, both.moments.mean))
-          continue;
-        planes_[p] = both;
+        if (!coplanar(planes_[p], planes_[q], options_.tolerance)) continue;
+        planes_[p] = united(planes_[p], planes_[q]);
         parent_[q] = p;
         joined = true;
       }
     }
-  }
-
-  static GrownPlane united(const GrownPlane& a, const GrownPlane& b) {
-    GrownPlane out;
-    out.moments = merged(a.moments, b.moments);
-    out.plane = plane_of(out.moments);
-    return out;
   }
 
   GrownPlanes collect() const {
@@ -129,7 +130,9 @@ class Growth {
     std::vector<std::int32_t> number(planes_.size(), no_plane);
     for (std::size_t p = 0; p < planes_.size(); ++p) {
       if (parent_[p] != static_cast<std::int32_t>(p)) continue;
-      if (planes_[p].moments.count < options_.least_points) continue;
+      if (planes_[p].moments.count < options_.least_points ||
+          planes_[p].plane.breadth < least_breadth * options_.tolerance)
+        continue;
       number[p] = static_cast<std::int32_t>(out.planes.size());
       out.planes.push_back(planes_[p]);
     }
@@ -148,6 +151,12 @@ class Growth {
 };
 
 }  // namespace
+
+bool coplanar(const GrownPlane& a, const GrownPlane& b, double tolerance) {
+  const GrownPlane both = united(a, b);
+  return fits(a.moments, both.plane, both.moments.mean, tolerance) &&
+         fits(b.moments, both.plane, both.moments.mean, tolerance);
+}
 
 GrownPlanes grow_planes(const CellTree& tree, const LeafAdjacency& adjacency,
                         const GrowthOptions& options) {

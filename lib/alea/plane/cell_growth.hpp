@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <vector>
 
@@ -11,7 +12,12 @@ namespace alea {
 struct GrownPlane {
   PointMoments moments;
   MomentPlane plane;
+  Eigen::AlignedBox3d box;  ///< of the means of its leaves
 };
+
+/// Whether one plane explains both sets: each has a root mean square distance of at most half the
+/// tolerance from the plane of their union.
+bool coplanar(const GrownPlane& a, const GrownPlane& b, double tolerance);
 
 struct GrownPlanes {
   std::vector<GrownPlane> planes;
@@ -24,7 +30,8 @@ struct GrowthOptions {
 };
 
 /// Grows planes over touching leaves from the largest and fullest planar ones, then joins touching
-/// planes that one plane explains. The order of events depends on the leaves alone.
+/// planes that one plane explains, and drops those too small or too narrow (standard deviation
+/// along the shorter side below 2 tolerances). The order of events depends on the leaves alone.
 GrownPlanes grow_planes(const CellTree& tree, const LeafAdjacency& adjacency,
                         const GrowthOptions& options);
 

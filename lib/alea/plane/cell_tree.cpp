@@ -165,10 +165,9 @@ void append(CellTree& tree, const TreeBuilder& part) {
 // The leaf of the same or a coarser level that covers the cube at `place` of `level`, or none.
 std::uint32_t covering_leaf(const CellGrid& grid, const CellTree& tree, int level,
                             const std::array<std::int32_t, 3>& place) {
-  for (const std::int32_t p : place)
-    if (p < 0 || p >> level >= 1 << CellTable::place_bits) return CellTable::none;
+  // A shift of a negative number rounds down, so that a place before the grid stays there.
   const std::uint32_t cell =
-      grid.table.find(CellTable::pack(place[0] >> level, place[1] >> level, place[2] >> level));
+      grid.cell_at({place[0] >> level, place[1] >> level, place[2] >> level});
   if (cell == CellTable::none) return CellTable::none;
   std::int32_t code = tree.roots[cell];
   for (int bit = level - 1; bit >= 0 && code >= 0; --bit)

@@ -54,6 +54,16 @@ PlaneDetector plane_detector_from_name(const std::string& name) {
 
 std::vector<PlaneRegion> detect_planes(const Cloud& cloud, const PlaneDetectionOptions& options) {
   check(cloud, options);
+  switch (options.detector) {
+    case PlaneDetector::efficient_ransac:
+      return detect_by_efficient_ransac(cloud, options);
+    case PlaneDetector::region_growing:
+      return detect_by_region_growing(cloud, options);
+    case PlaneDetector::ndt_ransac:
+      return detect_by_ndt_ransac(cloud, options);
+    case PlaneDetector::cells:
+      break;
+  }
   return detect_by_cells(cloud, options);
 }
 

@@ -28,8 +28,8 @@ struct PlaneDetectionOptions {
   double tolerance_m = 0.006;  ///< a member lies at most this far from its plane; about 4 sigma
   std::size_t min_points = 50;
   /// Length that says what is connected: the largest cell of `cells`, the cell of `ndt_ransac`, the
-  /// cluster_epsilon of `efficient_ransac`, twice the search radius of `region_growing`. 0 = derive
-  /// from tolerance and density.
+  /// cluster_epsilon of `efficient_ransac`; not used by `region_growing`. 0 = from tolerance and
+  /// density.
   double cell_m = 0;
   std::uint64_t seed = 1;  ///< efficient_ransac and ndt_ransac
   /// Largest angle between a point's normal and its plane's (efficient_ransac, region_growing,
