@@ -14,6 +14,7 @@ std::vector<Topic> die_topics() {
       {"bound", "ranks", "directions that a set of stations leaves open", run_bound_ranks},
       {"die", "pips", "pips read by the counting chain and by likelihood, against the range",
        run_pips},
+      {"die", "spheres", "registration by six spheres against its bound, 0.3 mrad", run_spheres},
   };
 }
 

@@ -14,6 +14,7 @@ namespace {
 
 constexpr int selecting_iterations = 20;  // then the members stay, so that the search can settle
 constexpr int max_iterations = 50;
+constexpr double settled_m = 1e-6;
 constexpr double converged_m = 1e-10;
 constexpr double largest_sine = 0.9999;  // beyond, a ray only touches the sphere
 
@@ -156,8 +157,8 @@ Result<SphereFit> fit_sphere(std::span<const Eigen::Vector3d> points,
   double opening = std::max(1.0, state.radius / 3 / (options.gate_sd * std::max(sd_m, 1e-9)));
   double scale = 1;
   std::vector<Eigen::Vector3d> members;
+  bool selecting = true;
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
-    const bool selecting = iteration < selecting_iterations;
     if (selecting) members = members_of(rays, state, options.gate_sd * scale * opening, options);
     const Sums sums = sums_of(members, state, options);
     if (sums.points < std::max<std::size_t>(options.min_points, unknowns + 1))
@@ -166,6 +167,8 @@ Result<SphereFit> fit_sphere(std::span<const Eigen::Vector3d> points,
                          std::to_string(options.min_points) + " are needed; scan it more densely"};
     const Eigen::Vector4d step = inverse_of(sums.normal, unknowns) * sums.right;
     if (!selecting && step.norm() < converged_m) return result_of(state, sums, unknowns, options);
+    selecting =
+        selecting && iteration < selecting_iterations && (opening > 1 || step.norm() > settled_m);
     // No step beyond a third of the radius: from there the linearisation says nothing.
     const double limit = std::min(1.0, state.radius / 3 / std::max(step.norm(), 1e-300));
     state.centre += limit * step.head<3>();

@@ -43,7 +43,7 @@ struct SphereFit {
 /// predicted for the ray u of a point, from the scanner, is rho = u.c - sqrt(R^2 - |u x c|^2), with
 /// Jacobian -(n, 1)/cos(incidence) at the predicted point; membership depends on the ray alone, up
 /// to a gate on the residual, so that no noise selects its own points (cf. Franaszek, Cheok,
-/// Witzgall 2009, doi 10.1109/TIM.2009.2016365, on fits along the beam).
+/// Witzgall 2009, on fits along the beam).
 /// The same bits for any order of the points. Refuses as too_few_points or no_convergence; throws
 /// a usage error for a radius that is not positive.
 Result<SphereFit> fit_sphere(std::span<const Eigen::Vector3d> points,
