@@ -106,6 +106,33 @@ TEST(PipsLikelihood, ABlankCubeIsUnreadable) {
   }
 }
 
+TEST(PipsLikelihood, MarksThatAreNotPipsAreRefused) {
+  RandomStream stream({32, 0, 0, 0, Purpose::test});
+  for (int t = 0; t < 60; ++t) {
+    die::PipTrial trial = die::make_pip_trial(quick(), trial_key(t));
+    for (FacetImageInput& image : trial.images) {  // a few dark rectangles instead of pips
+      std::vector<Eigen::AlignedBox2d> marks;
+      for (int m = 0; m < 4; ++m) {
+        const Eigen::Vector2d from(0.4 * stream.uniform(), 0.4 * stream.uniform());
+        const Eigen::Vector2d size(0.2 * stream.uniform(), 0.2 * stream.uniform());
+        marks.emplace_back(from, from + size);
+      }
+      for (std::size_t i = 0; i < image.uv_m.size(); ++i) {
+        const bool dark = std::any_of(marks.begin(), marks.end(),
+                                      [&](const auto& box) { return box.contains(image.uv_m[i]); });
+        image.intensity[i] = static_cast<float>((dark ? 0.2 : 0.8) + 0.1 * stream.normal());
+      }
+    }
+    EXPECT_FALSE(read_pips(trial.images, 1)) << t;
+  }
+}
+
+TEST(PipsLikelihood, PipsThatSitABitOffAreStillPips) {
+  die::PipTrialOptions options = quick();
+  options.frame_jitter_m = 0.008;
+  EXPECT_EQ(score(options, 20).right, 20);
+}
+
 TEST(PipsLikelihood, OneFacetThatContradictsTheOthersIsRefused) {
   for (int t = 0; t < 40; ++t) {
     const die::PipTrial die_a = die::make_pip_trial(quick(), trial_key(t));
@@ -119,7 +146,7 @@ TEST(PipsLikelihood, OneFacetThatContradictsTheOthersIsRefused) {
   }
 }
 
-TEST(PipsLikelihood, TheHandIsReadAndRefusedWhereItIsNotTheExpectedOne) {
+TEST(PipsLikelihood, TheHandIsReadEvenWhereItIsNotTheExpectedOne) {
   die::PipTrialOptions options = quick();
   const auto right = read_pips(die::make_pip_trial(options, trial_key(0)).images, 1);
   options.chirality = Chirality::counterclockwise;
@@ -130,10 +157,6 @@ TEST(PipsLikelihood, TheHandIsReadAndRefusedWhereItIsNotTheExpectedOne) {
   EXPECT_EQ(right->hand, Chirality::clockwise);
   EXPECT_EQ(other->hand, Chirality::counterclockwise);
   EXPECT_GT(other->hand_margin, 10);
-  EXPECT_FALSE(refuse_by_hand(*right, *right, Chirality::clockwise));
-  EXPECT_FALSE(refuse_by_hand(*other, *other, std::nullopt));
-  EXPECT_EQ(refuse_by_hand(*other, *other, Chirality::clockwise)->code, RefusalCode::chirality);
-  EXPECT_EQ(refuse_by_hand(*right, *other, std::nullopt)->code, RefusalCode::mirrored);
 }
 
 TEST(PipsLikelihood, FacetsInTheOtherOrderGiveTheSameReading) {

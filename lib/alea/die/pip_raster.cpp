@@ -106,6 +106,20 @@ BlurredPip blurred_pip(const PipRaster& raster, const Eigen::Vector2d& place,
   return pip;
 }
 
+/// The pips of a pattern, level and slopes eliminated, one value for each cell.
+Eigen::VectorXd pattern_values(const PipRaster& raster, const FacetImageInput& image,
+                               const PipTemplateShape& shape, const PipPattern& pattern) {
+  const Eigen::Vector2d edges_m(image.edge_u_m, image.edge_v_m);
+  Eigen::VectorXd pips = Eigen::VectorXd::Zero(raster.weight.size());
+  for (int place = 0; place < pip_places; ++place) {
+    if (!pattern.has(place)) continue;
+    const BlurredPip pip =
+        blurred_pip(raster, pip_place(place, shape.offset) + shape.shift, edges_m, shape);
+    for (const Eigen::Index i : pip.touched) pips[i] += pip.value[i];
+  }
+  return pips - raster.basis.transpose() * (raster.basis * raster.weight.cwiseProduct(pips));
+}
+
 }  // namespace
 
 PipRaster rasterise_pips(const FacetImageInput& image, const PipRasterOptions& options) {
@@ -139,7 +153,8 @@ PipPlaces correlate_places(const PipRaster& raster, const FacetImageInput& image
   const Eigen::Vector2d edges_m(image.edge_u_m, image.edge_v_m);
   std::vector<BlurredPip> pips;
   for (int place = 0; place < pip_places; ++place)
-    pips.push_back(blurred_pip(raster, pip_place(place, shape.offset), edges_m, shape));
+    pips.push_back(
+        blurred_pip(raster, pip_place(place, shape.offset) + shape.shift, edges_m, shape));
   PipPlaces places;
   places.gram.setZero();
   places.projection.setZero();
@@ -153,6 +168,55 @@ PipPlaces correlate_places(const PipRaster& raster, const FacetImageInput& image
     }
   places.gram -= trend.transpose() * trend;
   return places;
+}
+
+Eigen::Vector2d fit_shift(const PipRaster& raster, const FacetImageInput& image,
+                          PipTemplateShape shape, const PipPattern& pattern) {
+  constexpr int steps = 4;
+  constexpr double step = 0.01;
+  for (int axis = 0; axis < 2; ++axis) {
+    double best = 0, best_explained = -1;
+    for (int i = -steps; i <= steps; ++i) {
+      shape.shift[axis] = i * step;
+      const Eigen::VectorXd pips = pattern_values(raster, image, shape, pattern);
+      const Eigen::VectorXd weighted = raster.weight.cwiseProduct(pips);
+      const double projection = weighted.dot(raster.residual), square = weighted.dot(pips);
+      const double explained = square > 0 ? projection * projection / square : 0;
+      if (explained <= best_explained) continue;
+      best = shape.shift[axis];
+      best_explained = explained;
+    }
+    shape.shift[axis] = best;
+  }
+  return shape.shift;
+}
+
+PipLackOfFit lack_of_fit(const PipRaster& raster, const FacetImageInput& image,
+                         const PipTemplateShape& shape, const PipPattern& pattern) {
+  const Eigen::VectorXd pips = pattern_values(raster, image, shape, pattern);
+  const Eigen::VectorXd weighted = raster.weight.cwiseProduct(pips);
+  const Eigen::VectorXd left =
+      raster.residual - pips * (weighted.dot(raster.residual) / weighted.dot(pips));
+
+  PipLackOfFit fit;
+  int pairs = 0;
+  for (int row = 0; row + 1 < raster.cells; ++row)
+    for (int column = 0; column + 1 < raster.cells; ++column) {
+      const int cell = row * raster.cells + column;
+      const Eigen::Index i = raster.cell_index[cell];
+      for (const int step : {1, raster.cells}) {
+        const Eigen::Index j = raster.cell_index[cell + step];
+        if (i < 0 || j < 0) continue;
+        fit.before += raster.residual[i] * raster.residual[j];
+        fit.after += left[i] * left[j];
+        ++pairs;
+      }
+    }
+  if (pairs == 0) return fit;
+  fit.before /= pairs;
+  fit.after /= pairs;
+  fit.noise = left.squaredNorm() / static_cast<double>(left.size()) / std::sqrt(pairs);
+  return fit;
 }
 
 }  // namespace alea

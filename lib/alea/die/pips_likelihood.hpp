@@ -29,6 +29,9 @@ struct FacetEvidence {
   int best_pips = 0;     ///< of these the best; 0 where the facet carries no evidence
   double contrast = 0;   ///< pip minus background over the noise of one cell, for the joint reading
   int places_wrong = 0;  ///< places of the 3 x 3 lattice that contradict the joint reading
+  /// Share of the facet's structure that the reading leaves unexplained, as far as it exceeds four
+  /// standard errors: near 0 for pips, near 1 for other marks.
+  double unexplained = 0;
 };
 
 /// The joint reading of the three facets of a corner.
@@ -52,16 +55,11 @@ struct PipReading {
 /// normals in the order given (CornerAssembly::orientation).
 ///
 /// With options.chirality set, only readings of that hand are rivals, unless one of the other hand
-/// wins by the margin: it is then returned, and `hand` says so. Refuses as pips_unreadable a blank
-/// die or marks that are not pips, as pips_ambiguous a small margin or facets that contradict each
-/// other. Throws Error(usage) for an orientation of zero or edges that are not positive.
+/// wins by the margin: it is then returned, and `hand` says so (check_pair decides over both
+/// scans). Refuses as pips_unreadable a blank die or marks that are not pips, as pips_ambiguous a
+/// small margin or facets that contradict each other. Throws Error(usage) for an orientation of
+/// zero or edges that are not positive.
 Result<PipReading> read_pips(const std::array<FacetImageInput, 3>& images, int orientation,
                              const PipReaderOptions& options = {});
-
-/// The refusal that the hands of two readings call for: `mirrored` where they differ, `chirality`
-/// where both are of the hand that is not expected; none where they agree with each other and with
-/// `expected` (empty: any).
-std::optional<Refusal> refuse_by_hand(const PipReading& master, const PipReading& slave,
-                                      std::optional<Chirality> expected);
 
 }  // namespace alea
