@@ -55,6 +55,7 @@ void add_info(CLI::App& app, int& exit_code);
 void add_acceptance(CLI::App& app, int& exit_code);
 void add_reproduce(CLI::App& app, int& exit_code);
 void add_convert(CLI::App& app, int& exit_code);
+void add_merge(CLI::App& app, int& exit_code);
 void add_evaluate(CLI::App& app, int& exit_code);
 void add_simulate(CLI::App& app, int& exit_code);
 

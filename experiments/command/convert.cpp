@@ -15,12 +15,14 @@ struct Convert {
   std::string out;
   CommonOptions common;
   ReadingOptions reading;
+  ThinningOptions thinning;
 };
 
 int run(const Convert& convert) {
   const ThreadLimit limit(convert.common.threads);
   ReadOptions options = read_options(convert.reading);
   options.accept_non_rigid_pose = true;
+  thin(convert.thinning, options);
   const std::vector<ScanFile> scans = read_scans(convert.in, options);
   for (const std::string& warning : pose_warnings(scans))
     fmt::print(stderr, "alea: warning: {}\n", warning);
@@ -36,6 +38,7 @@ void add_convert(CLI::App& app, int& exit_code) {
   sub->add_option("in", convert->in, "Scan to read; file.e57#2 is the second one")->required();
   sub->add_option("out", convert->out, "File to write; the extension names the format")->required();
   add_reading_options(*sub, convert->reading);
+  add_thinning_options(*sub, convert->thinning);
   sub->add_option("--threads", convert->common.threads, "Threads (0: all cores)")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();

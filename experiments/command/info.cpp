@@ -18,6 +18,7 @@ struct Info {
   std::string path;
   CommonOptions common;
   ReadingOptions reading;
+  ThinningOptions thinning;
 };
 
 nlohmann::json vector_json(const std::optional<Eigen::Vector3d>& v) {
@@ -74,6 +75,7 @@ int run(const Info& info) {
   const ThreadLimit limit(info.common.threads);
   ReadOptions options = read_options(info.reading);
   options.accept_non_rigid_pose = true;
+  thin(info.thinning, options);
   std::vector<ScanFile> scans = read_scans(info.path, options);
   const bool applied = scans.size() > 1 || options.apply_pose;
   nlohmann::json result{{"alea", version()},
@@ -108,6 +110,7 @@ void add_info(CLI::App& app, int& exit_code) {
                   "PLY, PCD, XYZ, TXT, CSV, PTS, PTX, E57 or LAS; file.e57#2 is the second scan")
       ->required();
   add_reading_options(*sub, info->reading);
+  add_thinning_options(*sub, info->thinning);
   add_common_options(*sub, info->common);
   sub->callback([info, &exit_code] { exit_code = run(*info); });
 }

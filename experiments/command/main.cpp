@@ -3,11 +3,13 @@
 
 #include <CLI/CLI.hpp>
 #include <csignal>
+#include <cstring>
 #include <exception>
 
 #include "alea/core/error.hpp"
 #include "alea/core/version.hpp"
 #include "alea/io/atomic_file.hpp"
+#include "alea/io/input_file.hpp"
 #include "experiments/command/command.hpp"
 
 namespace {
@@ -21,6 +23,28 @@ extern "C" void on_interrupt(int) {
   ::_exit(exit_interrupted);
 }
 
+// A mapped input that another program cuts short while it is read: one line and the exit code for
+// bad input, with calls that a signal handler may make.
+extern "C" void on_bus_error(int, siginfo_t* info, void*) {
+  const char* path = alea::mapped_path_of(info->si_addr);
+  alea::remove_unfinished_files();
+  if (path == nullptr) ::_exit(exit_internal);
+  const char* const parts[] = {
+      "alea: ", path, ": became shorter while it was read; read it again when it is complete\n"};
+  for (const char* part : parts)
+    if (::write(STDERR_FILENO, part, std::strlen(part)) < 0) break;
+  ::_exit(exit_input);
+}
+
+void install_handlers() {
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+  struct sigaction action {};
+  action.sa_sigaction = on_bus_error;
+  action.sa_flags = SA_SIGINFO;
+  ::sigaction(SIGBUS, &action, nullptr);
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"alea: registers laser scans by geometry that can be checked"};
   app.set_version_flag("--version", std::string("alea ") + alea::version());
@@ -29,6 +53,7 @@ int run(int argc, char** argv) {
   for (const AddSubcommand add : {
            add_info,
            add_convert,
+           add_merge,
            add_evaluate,
            add_simulate,
            add_acceptance,
@@ -46,8 +71,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
+  install_handlers();
   try {
     return run(argc, argv);
   } catch (const alea::Error& error) {

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <optional>
 #include <sstream>
 
 #include "alea/core/error.hpp"
+#include "alea/io/text_lines.hpp"
 
 namespace alea::command {
 namespace {
@@ -15,7 +18,7 @@ std::vector<std::string> split_names(const std::string& list) {
   for (std::string name; std::getline(in, name, ',');) {
     if (name.empty())
       throw usage_error(
-          fmt::format("--columns: an empty name in '{}'; write e.g. x,y,z,intensity", list));
+          fmt::format("an empty value in '{}'; separate values by single commas", list));
     names.push_back(name);
   }
   return names;
@@ -33,6 +36,33 @@ void add_reading_options(CLI::App& app, ReadingOptions& options) {
   app.add_flag("--apply-pose", options.apply_pose,
                "Move the points by the pose in the file (E57, PTX); several scans of one file "
                "always are");
+}
+
+void add_thinning_options(CLI::App& app, ThinningOptions& options) {
+  app.add_option("--decimate", options.decimate,
+                 "Keep every N-th of the valid points inside the crop")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--crop", options.crop,
+                 "Keep the points inside this box (m, the scan's own frame): "
+                 "--crop=XMIN,YMIN,ZMIN,XMAX,YMAX,ZMAX");
+}
+
+void thin(const ThinningOptions& options, ReadOptions& out) {
+  out.keep_every = options.decimate;
+  if (options.crop.empty()) return;
+  std::vector<double> values;
+  for (const std::string& word : split_names(options.crop)) {
+    const std::optional<double> value = parse_number(word);
+    if (!value || !std::isfinite(*value))
+      throw usage_error(fmt::format("--crop: '{}' is not a number of metres", word));
+    values.push_back(*value);
+  }
+  if (values.size() != 6)
+    throw usage_error("--crop: expected XMIN,YMIN,ZMIN,XMAX,YMAX,ZMAX in metres");
+  out.crop_m = Eigen::AlignedBox3d(Eigen::Vector3d(values[0], values[1], values[2]),
+                                   Eigen::Vector3d(values[3], values[4], values[5]));
+  if (out.crop_m->isEmpty()) throw usage_error("--crop: a minimum lies above its maximum");
 }
 
 ReadOptions read_options(const ReadingOptions& options) {

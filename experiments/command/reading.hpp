@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <string>
 
 #include "alea/io/scan_file.hpp"
@@ -14,8 +15,20 @@ struct ReadingOptions {
   bool apply_pose = false;
 };
 
+/// Which points to keep while a file is read, so that files larger than memory can be thinned.
+struct ThinningOptions {
+  std::uint32_t decimate = 1;
+  std::string crop;
+};
+
 /// Adds --unit, --columns and --apply-pose.
 void add_reading_options(CLI::App& app, ReadingOptions& options);
+
+/// Adds --decimate and --crop.
+void add_thinning_options(CLI::App& app, ThinningOptions& options);
+
+/// Applies them to `out`. Throws Error(usage).
+void thin(const ThinningOptions& options, ReadOptions& out);
 
 /// The same for the library. Throws Error(usage).
 ReadOptions read_options(const ReadingOptions& options);

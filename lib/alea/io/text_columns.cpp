@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <exception>
@@ -19,11 +19,12 @@ namespace {
 constexpr std::size_t chunk_bytes = std::size_t{1} << 18;
 constexpr std::size_t batch_bytes = std::size_t{1} << 26;
 
-bool is_data(const TextTable& table, std::string_view line) {
-  const auto first = line.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return false;
+// True where a line of data, rather than a blank one or a comment, starts at the front of `text`.
+bool starts_data(const TextTable& table, std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos || text[first] == '\n') return false;
   if (!table.comments) return true;
-  return line[first] != '#' && line.substr(first, 2) != "//";
+  return text[first] != '#' && text.substr(first, 2) != "//";
 }
 
 struct Chunk {
@@ -51,10 +52,9 @@ std::vector<Chunk> cut(std::string_view text) {
 
 void count_lines(const TextTable& table, Chunk& chunk) {
   for (std::size_t at = 0; at < chunk.text.size();) {
-    const TextLine line = line_at(chunk.text, at);
     ++chunk.lines;
-    if (is_data(table, line.text)) ++chunk.points;
-    at = line.next;
+    if (starts_data(table, chunk.text.substr(at))) ++chunk.points;
+    at = line_at(chunk.text, at).next;
   }
 }
 
@@ -63,49 +63,44 @@ class LineParser {
   LineParser(const TextTable& table, const TextPlace& place, Cloud& cloud)
       : table_(table), place_(place), cloud_(cloud) {
     for (const std::string& name : table.names) roles_.push_back(role_of(name));
+    for (const char c : {' ', '\t', '\r'}) separates_[static_cast<unsigned char>(c)] = true;
+    for (const char c : {',', ';'}) separates_[static_cast<unsigned char>(c)] = table.commas;
   }
 
-  void parse(std::string_view line, std::size_t number, std::size_t point) const {
-    const char* at = line.data();
-    const char* const end = at + line.size();
+  // Parses the line at `at`; returns where the next one starts.
+  const char* parse(const char* at, const char* end, std::size_t number, std::size_t point) const {
     for (std::size_t c = 0; c < roles_.size(); ++c) {
-      const bool list = c < table_.lists.size() && table_.lists[c];
       const double value = next_value(at, end, number, c);
-      if (list) {
+      if (c < table_.lists.size() && table_.lists[c]) {
         for (double i = 0; i < value; ++i) next_value(at, end, number, c);
       } else if (roles_[c]) {
         store(*roles_[c], c, value, point);
       }
     }
-    while (at != end && ends_value(*at)) ++at;
-    if (at != end)
+    while (at != end && separates(*at)) ++at;
+    if (at != end && *at != '\n')
       throw input_error(fmt::format("{}: line {}: more than the {} values expected", place_.path,
                                     number, roles_.size()));
+    return at == end ? at : at + 1;
   }
 
  private:
-  bool ends_value(char c) const {
-    return c == ' ' || c == '\t' || c == '\r' || (table_.commas && (c == ',' || c == ';'));
-  }
+  bool separates(char c) const { return separates_[static_cast<unsigned char>(c)]; }
 
   double next_value(const char*& at, const char* end, std::size_t number, std::size_t c) const {
-    while (at != end && ends_value(*at)) ++at;
-    if (at == end)
+    while (at != end && separates(*at)) ++at;
+    if (at == end || *at == '\n')
       throw input_error(fmt::format("{}: line {}: {} values, expected {}", place_.path, number, c,
                                     roles_.size()));
-    if (*at == '+') ++at;
-    double value = 0;
-    const auto [next, error] = std::from_chars(at, end, value);
-    const bool ended = next == end || ends_value(*next);
-    if (error == std::errc::result_out_of_range && ended) {
-      value = std::nan("");
-    } else if (error != std::errc{} || !ended) {
-      const std::string word(at, std::find_if(at, end, is_separator));
+    const NumberText read = read_number(at, end);
+    if (read.end == at || (read.end != end && !separates(*read.end) && *read.end != '\n')) {
+      const char* const word =
+          std::find_if(at, end, [](char letter) { return is_separator(letter) || letter == '\n'; });
       throw input_error(fmt::format("{}: line {}: '{}' is not a number (column {})", place_.path,
-                                    number, word.substr(0, 40), c + 1));
+                                    number, std::string(at, word).substr(0, 40), c + 1));
     }
-    at = next;
-    return value;
+    at = read.end;
+    return read.value;
   }
 
   void store(FieldRole role, std::size_t c, double value, std::size_t i) const {
@@ -145,27 +140,31 @@ class LineParser {
   const TextPlace& place_;
   Cloud& cloud_;
   std::vector<std::optional<FieldRole>> roles_;
+  std::array<bool, 256> separates_{};
 };
 
 DroppedPoints parse_chunk(const LineParser& parser, const TextTable& table, const Chunk& chunk,
                           Cloud& cloud, std::size_t at) {
   DroppedPoints dropped;
+  const char* from = chunk.text.data();
+  const char* const end = from + chunk.text.size();
   std::size_t number = chunk.first_line;
-  std::size_t offset = 0;
   for (std::size_t point = 0; point < chunk.points; ++number) {
-    const TextLine line = line_at(chunk.text, offset);
-    offset = line.next;
-    if (!is_data(table, line.text)) continue;
-    Eigen::Vector3d& position = cloud.positions[at + point];
-    parser.parse(line.text, number, at + point);
+    const auto left = static_cast<std::size_t>(end - from);
+    if (!starts_data(table, {from, left})) {
+      from += line_at({from, left}, 0).next;
+      continue;
+    }
+    from = parser.parse(from, end, number, at + point);
     if (table.grid_rows > 0) {
       cloud.rows[at + point] = static_cast<int>((chunk.first_point + point) % table.grid_rows);
       cloud.columns[at + point] = static_cast<int>((chunk.first_point + point) / table.grid_rows);
+      if (cloud.positions[at + point].isZero(0)) {
+        cloud.positions[at + point].x() = std::nan("");
+        ++dropped.missing;
+      }
     }
     ++point;
-    if (table.grid_rows == 0 || !position.isZero(0)) continue;
-    position.x() = std::nan("");
-    ++dropped.missing;
   }
   return dropped;
 }
@@ -218,6 +217,12 @@ std::size_t read_text_table(const TextTable& table, std::string_view text, const
       chunk.points = std::min(chunk.points, limit - done);
       line += chunk.lines;
       done += chunk.points;
+    }
+    if (offset == 0 && !batch.empty()) {
+      // The first batch tells how many lines to expect.
+      const double batches = static_cast<double>(text.size()) / static_cast<double>(batch.size());
+      const auto expected = static_cast<std::size_t>(static_cast<double>(done) * batches * 1.02);
+      sink.reserve(std::min(limit, expected));
     }
     parse_batch(table, place, chunks, sink);
     offset += batch.size();

@@ -1,7 +1,10 @@
 #include "alea/io/text_lines.hpp"
 
+#include <array>
 #include <charconv>
+#include <cstdint>
 #include <cstring>
+#include <limits>
 
 namespace alea {
 
@@ -23,12 +26,58 @@ std::vector<std::string_view> split_values(std::string_view line) {
   return words;
 }
 
-std::optional<double> parse_number(std::string_view word) {
-  if (word.starts_with('+')) word.remove_prefix(1);
+namespace {
+
+// Powers of ten that a double holds exactly.
+constexpr std::array<double, 23> powers_of_ten{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                               1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                               1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+
+NumberText read_any_number(const char* at, const char* end) {
   double value = 0;
-  const auto [next, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc{} || next != word.data() + word.size()) return std::nullopt;
-  return value;
+  const auto [next, error] = std::from_chars(at, end, value);
+  if (error == std::errc::result_out_of_range) value = std::numeric_limits<double>::quiet_NaN();
+  return {value, next};
+}
+
+}  // namespace
+
+NumberText read_number(const char* at, const char* end) {
+  const char* const start = at;
+  if (at != end && *at == '+') ++at;
+  const char* const number = at;
+  const bool negative = at != end && *at == '-';
+  if (negative) {
+    if (at != start) return {0, start};
+    ++at;
+  }
+  std::uint64_t digits = 0;
+  const char* const first = at;
+  for (; at != end && *at >= '0' && *at <= '9'; ++at) digits = digits * 10 + (*at - '0');
+  std::size_t count = at - first;
+  std::size_t decimals = 0;
+  if (at != end && *at == '.') {
+    const char* const point = at++;
+    for (; at != end && *at >= '0' && *at <= '9'; ++at) digits = digits * 10 + (*at - '0');
+    decimals = at - point - 1;
+    count += decimals;
+  }
+  // Up to 15 digits and their power of ten are exact, so one division rounds correctly
+  // (Clinger 1990, How to read floating point numbers accurately). The rest is from_chars' work.
+  const bool plain = count > 0 && count <= 15 && (at == end || (*at != 'e' && *at != 'E'));
+  if (!plain) {
+    const NumberText any = read_any_number(number, end);
+    return any.end == number ? NumberText{0, start} : any;
+  }
+  const double value = static_cast<double>(digits) / powers_of_ten[decimals];
+  return {negative ? -value : value, at};
+}
+
+std::optional<double> parse_number(std::string_view word) {
+  const char* const end = word.data() + word.size();
+  const NumberText read = read_number(word.data(), end);
+  if (word.empty() || read.end != end) return std::nullopt;
+  return read.value;
 }
 
 }  // namespace alea
