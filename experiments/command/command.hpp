@@ -58,5 +58,6 @@ void add_convert(CLI::App& app, int& exit_code);
 void add_merge(CLI::App& app, int& exit_code);
 void add_evaluate(CLI::App& app, int& exit_code);
 void add_simulate(CLI::App& app, int& exit_code);
+void add_register(CLI::App& app, int& exit_code);
 
 }  // namespace alea::command

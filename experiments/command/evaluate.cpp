@@ -47,8 +47,8 @@ int run(const EvaluateArguments& arguments) {
   parallel_pair([&] { scans[0] = read_planes(arguments.master, arguments); },
                 [&] { scans[1] = read_planes(arguments.slave, arguments); });
   const auto& [master, slave] = scans;
-  for (const PlanePair& pair : find_plane_pairs(master.cloud, master.regions, slave.cloud,
-                                                slave.regions, *result.master_from_slave))
+  for (const CommonPlane& pair : find_common_planes(master.cloud, master.regions, slave.cloud,
+                                                    slave.regions, *result.master_from_slave))
     result.check_planes.push_back(
         evaluate_check_plane(master.cloud, slave.cloud, pair, *result.master_from_slave));
   const double reach_m = 3 * std::max(median_spacing_m(master.cloud).value_or(0),

@@ -56,6 +56,7 @@ int run(int argc, char** argv) {
            add_merge,
            add_evaluate,
            add_simulate,
+           add_register,
            add_acceptance,
            add_reproduce,
        })

@@ -59,8 +59,8 @@ class CheckPlanes : public ::testing::Test {
 
   std::vector<CheckPlane> evaluate(const RigidTransform& master_from_slave) const {
     std::vector<CheckPlane> planes;
-    for (const PlanePair& pair : find_plane_pairs(master_.cloud, master_.regions, slave_.cloud,
-                                                  slave_.regions, master_from_slave))
+    for (const CommonPlane& pair : find_common_planes(master_.cloud, master_.regions, slave_.cloud,
+                                                      slave_.regions, master_from_slave))
       planes.push_back(evaluate_check_plane(master_.cloud, slave_.cloud, pair, master_from_slave));
     return planes;
   }
@@ -112,8 +112,8 @@ TEST_F(CheckPlanes, ATiltIsTheAngleBetweenThePlanes) {
 
 TEST_F(CheckPlanes, ParallelPlanesThirtyCentimetresApartAreNotMistakenForEachOther) {
   const auto pairs =
-      find_plane_pairs(master_.cloud, std::span(master_.regions).first(2), slave_.cloud,
-                       std::span(slave_.regions).last(1), master_from_slave_);
+      find_common_planes(master_.cloud, std::span(master_.regions).first(2), slave_.cloud,
+                         std::span(slave_.regions).last(1), master_from_slave_);
   EXPECT_TRUE(pairs.empty());
 }
 

@@ -24,7 +24,7 @@ double rmse_about(const Plane& plane, std::span<const Eigen::Vector3d> points) {
 
 }  // namespace
 
-CheckPlane evaluate_check_plane(const Cloud& master, const Cloud& slave, const PlanePair& pair,
+CheckPlane evaluate_check_plane(const Cloud& master, const Cloud& slave, const CommonPlane& pair,
                                 const RigidTransform& master_from_slave) {
   std::vector<Eigen::Vector3d> both = gather(master, pair.indices_master);
   std::vector<Eigen::Vector3d> moved = gather(slave, pair.indices_slave);

@@ -14,7 +14,7 @@ namespace alea {
 
 /// A plane that both scans see, cut down to the area that both cover. Slave quantities are in the
 /// slave's frame.
-struct PlanePair {
+struct CommonPlane {
   int id = 0;  ///< from 1, in the order of decreasing common point count
   std::vector<std::uint32_t> indices_master;  ///< into the master cloud, ascending
   std::vector<std::uint32_t> indices_slave;   ///< into the slave cloud, ascending
@@ -22,7 +22,7 @@ struct PlanePair {
   PlaneFit fit_slave;
 };
 
-struct PlanePairOptions {
+struct CommonPlaneOptions {
   double max_angle_rad = 0.087;  ///< between the normals under the given transform
   double max_offset_m = 0.15;    ///< between the planes, at the common area
   double raster_m = 0.1;         ///< cell of the raster in which the common area is found
@@ -32,12 +32,12 @@ struct PlanePairOptions {
 /// Finds the planes common to both scans under an approximate transform. Each region is paired at
 /// most once, with the region that shares the most area with it. `exclude_*` are point indices
 /// (ascending) that may not take part, e.g. a target's own facets.
-std::vector<PlanePair> find_plane_pairs(const Cloud& master,
-                                        std::span<const PlaneRegion> master_regions,
-                                        const Cloud& slave,
-                                        std::span<const PlaneRegion> slave_regions,
-                                        const RigidTransform& master_from_slave,
-                                        const PlanePairOptions& options = {});
+std::vector<CommonPlane> find_common_planes(const Cloud& master,
+                                            std::span<const PlaneRegion> master_regions,
+                                            const Cloud& slave,
+                                            std::span<const PlaneRegion> slave_regions,
+                                            const RigidTransform& master_from_slave,
+                                            const CommonPlaneOptions& options = {});
 
 enum class CheckPlaneRole { check, calibration };
 
@@ -59,7 +59,7 @@ struct CheckPlane {
 };
 
 /// Evaluates one pair under a transform.
-CheckPlane evaluate_check_plane(const Cloud& master, const Cloud& slave, const PlanePair& pair,
+CheckPlane evaluate_check_plane(const Cloud& master, const Cloud& slave, const CommonPlane& pair,
                                 const RigidTransform& master_from_slave);
 
 /// Share of `a`'s points that have a point of `b` within `distance_m`, under b_from_a. In [0, 1].

@@ -55,7 +55,7 @@ struct Candidate {
 };
 
 bool roughly_coplanar(const PlaneRegion& master, const PlaneRegion& slave,
-                      const RigidTransform& master_from_slave, const PlanePairOptions& options) {
+                      const RigidTransform& master_from_slave, const CommonPlaneOptions& options) {
   const Eigen::Vector3d normal = master_from_slave.rotation * slave.plane.normal;
   if (std::abs(normal.dot(master.plane.normal)) < std::cos(options.max_angle_rad)) return false;
   const Eigen::Vector3d centroid = master_from_slave * slave.centroid_m;
@@ -66,7 +66,7 @@ bool roughly_coplanar(const PlaneRegion& master, const PlaneRegion& slave,
 std::optional<Candidate> common_area(const Cloud& master, const PlaneRegion& master_region,
                                      const Cloud& slave, const PlaneRegion& slave_region,
                                      const RigidTransform& master_from_slave,
-                                     const PlanePairOptions& options) {
+                                     const CommonPlaneOptions& options) {
   const Raster raster{master_region.centroid_m, tangent_basis(master_region.plane.normal),
                       options.raster_m};
   const std::vector<Cell> of_master = occupied(raster, master, master_region, {});
@@ -89,7 +89,7 @@ PlaneFit fit_subset(const Cloud& cloud, const std::vector<std::uint32_t>& indice
                    {.method = FitMethod::orthogonal, .scanner_position = cloud.scanner_position});
 }
 
-bool agree_over_area(const PlanePair& pair, const RigidTransform& master_from_slave,
+bool agree_over_area(const CommonPlane& pair, const RigidTransform& master_from_slave,
                      double max_offset_m) {
   const Eigen::Vector3d centroid = master_from_slave * pair.fit_slave.centroid_m;
   return std::abs(pair.fit_master.plane.signed_distance(centroid)) < max_offset_m;
@@ -97,12 +97,12 @@ bool agree_over_area(const PlanePair& pair, const RigidTransform& master_from_sl
 
 }  // namespace
 
-std::vector<PlanePair> find_plane_pairs(const Cloud& master,
-                                        std::span<const PlaneRegion> master_regions,
-                                        const Cloud& slave,
-                                        std::span<const PlaneRegion> slave_regions,
-                                        const RigidTransform& master_from_slave,
-                                        const PlanePairOptions& options) {
+std::vector<CommonPlane> find_common_planes(const Cloud& master,
+                                            std::span<const PlaneRegion> master_regions,
+                                            const Cloud& slave,
+                                            std::span<const PlaneRegion> slave_regions,
+                                            const RigidTransform& master_from_slave,
+                                            const CommonPlaneOptions& options) {
   std::vector<Candidate> candidates;
   for (std::size_t m = 0; m < master_regions.size(); ++m) {
     for (std::size_t s = 0; s < slave_regions.size(); ++s) {
@@ -120,10 +120,10 @@ std::vector<PlanePair> find_plane_pairs(const Cloud& master,
                    [](const Candidate& a, const Candidate& b) { return a.common() > b.common(); });
 
   std::vector<bool> master_taken(master_regions.size()), slave_taken(slave_regions.size());
-  std::vector<PlanePair> pairs;
+  std::vector<CommonPlane> pairs;
   for (Candidate& candidate : candidates) {
     if (master_taken[candidate.master] || slave_taken[candidate.slave]) continue;
-    PlanePair pair;
+    CommonPlane pair;
     pair.fit_master = fit_subset(master, candidate.indices_master);
     pair.fit_slave = fit_subset(slave, candidate.indices_slave);
     if (!agree_over_area(pair, master_from_slave, options.max_offset_m)) continue;

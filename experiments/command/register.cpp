@@ -1,0 +1,11 @@
+#include "experiments/command/register.hpp"
+
+namespace alea::command {
+
+void add_register(CLI::App& app, int& exit_code) {
+  CLI::App* parent = app.add_subcommand("register", "Find the rigid transform between scans");
+  parent->require_subcommand(1);
+  for (const AddSubcommand add : {add_register_die}) add(*parent, exit_code);
+}
+
+}  // namespace alea::command

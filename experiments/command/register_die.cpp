@@ -1,0 +1,207 @@
+#include "alea/pipeline/register_die.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <chrono>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <sstream>
+
+#include "alea/core/error.hpp"
+#include "alea/core/parallel.hpp"
+#include "alea/io/cloud_file.hpp"
+#include "experiments/command/die_file.hpp"
+#include "experiments/command/noise_file.hpp"
+#include "experiments/command/reading.hpp"
+#include "experiments/command/register.hpp"
+#include "experiments/command/registration_json.hpp"
+
+namespace alea::command {
+namespace {
+
+struct DieArguments {
+  CommonOptions common;
+  std::vector<std::string> scans;
+  double edge_m = 0;
+  std::vector<double> edges_m;
+  double edge_sd_m = 0;
+  std::string shape_file;
+  std::string method = "closed_form";
+  std::string planes;
+  bool calibrate = false;
+  std::string chirality = "clockwise";
+  double tilt_prior_deg = 0;
+  std::string near, master_origin, slave_origin;
+  std::string check_planes_file, noise_file;
+  ReadingOptions reading;
+};
+
+const std::map<std::string, DieMethod> methods{{"paper", DieMethod::paper},
+                                               {"paper_literal", DieMethod::paper_literal},
+                                               {"closed_form", DieMethod::closed_form}};
+constexpr double smallest_edge_m = 0.02, largest_edge_m = 10;
+
+void check_edge(double edge_m, const char* option) {
+  if (!(edge_m >= smallest_edge_m && edge_m <= largest_edge_m))
+    throw usage_error(fmt::format("{}: {} m is not the edge of a die; give metres from {} to {}",
+                                  option, edge_m, smallest_edge_m, largest_edge_m));
+}
+
+std::optional<Eigen::Vector3d> point(const std::string& option, const std::string& text) {
+  const auto parsed = parse_point(option, text);
+  return parsed ? std::optional<Eigen::Vector3d>(
+                      Eigen::Vector3d((*parsed)[0], (*parsed)[1], (*parsed)[2]))
+                : std::nullopt;
+}
+
+std::vector<Eigen::Vector3d> read_centroids(const std::string& path) {
+  if (path.empty()) return {};
+  std::ifstream file(path);
+  if (!file)
+    throw input_error(
+        fmt::format("{}: cannot read; --check-planes needs a file of centroids", path));
+  std::vector<Eigen::Vector3d> centroids;
+  int number = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++number;
+    if (line.find_first_not_of(" \t\r") == std::string::npos || line[0] == '#') continue;
+    std::istringstream words(line);
+    Eigen::Vector3d c;
+    std::string rest;
+    if (!(words >> c.x() >> c.y() >> c.z()) || words >> rest || !c.allFinite())
+      throw input_error(
+          fmt::format("{}: line {}: '{}' is not a centroid; write x y z in metres, master frame",
+                      path, number, line));
+    centroids.push_back(c);
+  }
+  if (centroids.empty())
+    throw input_error(fmt::format("{}: no centroid; write one x y z a line, in metres", path));
+  return centroids;
+}
+
+DieRegistrationOptions registration_options(const DieArguments& arguments) {
+  DieRegistrationOptions options;
+  if (arguments.edge_m != 0) check_edge(arguments.edge_m, "--edge");
+  options.edge_m = arguments.edge_m;
+  if (!arguments.edges_m.empty()) {
+    for (const double edge_m : arguments.edges_m) check_edge(edge_m, "--edges");
+    options.edges_m = {arguments.edges_m[0], arguments.edges_m[1], arguments.edges_m[2]};
+  }
+  if (arguments.edge_sd_m < 0)
+    throw usage_error("--edge-sd: a standard deviation is not negative; give metres");
+  if (arguments.edge_sd_m > 0) options.edge_sd_m = arguments.edge_sd_m;
+  if (!arguments.shape_file.empty()) options.shape = read_die_file(arguments.shape_file);
+  if (options.edge_m == 0 && !options.edges_m && !options.shape)
+    throw usage_error(
+        "the die's size is not known; give --edge METRES, --edges A,B,C or --die DIE.json");
+  options.method = methods.at(arguments.method);
+  // The published chain includes its own detector.
+  const bool published = options.method != DieMethod::closed_form;
+  options.planes = plane_detector_from_name(!arguments.planes.empty() ? arguments.planes
+                                            : published               ? "ndt_ransac"
+                                                                      : "cells");
+  options.calibrate = arguments.calibrate;
+  if (arguments.chirality == "any")
+    options.chirality = std::nullopt;
+  else
+    options.chirality =
+        arguments.chirality == "clockwise" ? Chirality::clockwise : Chirality::counterclockwise;
+  if (arguments.tilt_prior_deg > 0)
+    options.tilt_prior_rad = arguments.tilt_prior_deg * std::numbers::pi / 180;
+  options.near_m = point("--near", arguments.near);
+  options.check_plane_centroids_m = read_centroids(arguments.check_planes_file);
+  if (!arguments.noise_file.empty()) options.noise = read_noise_file(arguments.noise_file);
+  options.seed = arguments.common.seed;
+  return options;
+}
+
+Cloud read_scan(const std::string& path, const ReadOptions& read,
+                const std::optional<Eigen::Vector3d>& origin) {
+  Cloud cloud = read_cloud(path, read);
+  if (origin) cloud.scanner_position = origin;
+  if (cloud.empty()) throw input_error(fmt::format("{}: no points; a scan is needed", path));
+  if (!cloud.has_intensity())
+    throw input_error(fmt::format(
+        "{}: no intensity, so the pips cannot be read; export the scan with intensity", path));
+  return cloud;
+}
+
+int run(const DieArguments& arguments) {
+  const DieRegistrationOptions options = registration_options(arguments);
+  const auto master_origin = point("--master-origin", arguments.master_origin);
+  const auto slave_origin = point("--slave-origin", arguments.slave_origin);
+  const ThreadLimit limit(arguments.common.threads);
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<Cloud> clouds(arguments.scans.size());
+  parallel_chunks(clouds.size(), 1, [&](std::size_t i, std::size_t) {
+    clouds[i] = read_scan(arguments.scans[i], read_options(arguments.reading),
+                          i == 0 ? master_origin : slave_origin);
+  });
+  const double read_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+
+  std::vector<Registration> results;
+  for (std::size_t i = 1; i < clouds.size(); ++i) {
+    Registration result = register_die(clouds[0], clouds[i], options);
+    result.timing_s.insert(result.timing_s.begin(), {"read", read_s});
+    result.timing_s.back().second += read_s;
+    results.push_back(std::move(result));
+  }
+  return finish_registrations(arguments.common, results);
+}
+
+}  // namespace
+
+void add_register_die(CLI::App& parent, int& exit_code) {
+  auto arguments = std::make_shared<DieArguments>();
+  CLI::App* app = parent.add_subcommand("die", "Register scans by one die that all of them see");
+  DieArguments& a = *arguments;
+  app->add_option("SCANS", a.scans,
+                  "Master scan, then one or more slave scans (PLY, PCD, XYZ, PTS, PTX, E57, LAS)")
+      ->required()
+      ->expected(2, 1000);
+  app->add_option("--edge", a.edge_m,
+                  "Length of the die's shared edge, corner to corner (m, 0.02 to 10)");
+  app->add_option("--edges", a.edges_m, "Three edge lengths of a cuboid (m), as A,B,C")
+      ->delimiter(',')
+      ->expected(3);
+  app->add_option("--edge-sd", a.edge_sd_m,
+                  "Standard deviation of --edge (m); without it --edge is exact");
+  app->add_option("--die", a.shape_file,
+                  "Calibrated shape (DIE.json, or the truth.json of simulate)");
+  app->add_option("--method", a.method,
+                  "closed_form: shared edge and facets; paper: the published chain, corrected; "
+                  "paper_literal: as printed")
+      ->check(CLI::IsMember({"paper", "paper_literal", "closed_form"}))
+      ->capture_default_str();
+  app->add_option("--planes", a.planes,
+                  "Plane detector (default: cells; ndt_ransac for the paper's methods)")
+      ->check(CLI::IsMember({"cells", "efficient_ransac", "region_growing", "ndt_ransac"}));
+  app->add_flag("--calibrate", a.calibrate,
+                "Estimate the edge length on planes that both scans see");
+  app->add_option("--chirality", a.chirality,
+                  "How 1, 2, 3 run about their corner, seen from outside")
+      ->check(CLI::IsMember({"clockwise", "counterclockwise", "any"}))
+      ->capture_default_str();
+  app->add_option("--tilt-prior-deg", a.tilt_prior_deg,
+                  "Standard deviation of the facets' tilts (deg), where only one "
+                  "facet is shared")
+      ->check(CLI::PositiveNumber);
+  app->add_option("--near", a.near, "Where the die is, roughly, in the master frame: X,Y,Z (m)");
+  app->add_option("--master-origin", a.master_origin,
+                  "Scanner position in the master's frame: X,Y,Z (m)");
+  app->add_option("--slave-origin", a.slave_origin,
+                  "Scanner position in the slaves' frames: X,Y,Z (m)");
+  app->add_option("--check-planes", a.check_planes_file,
+                  "File of centroids (x y z, master frame, m) of the check "
+                  "planes; the other common planes calibrate");
+  app->add_option("--noise", a.noise_file, "Noise model (JSON) behind the covariance");
+  add_reading_options(*app, a.reading);
+  add_common_options(*app, a.common);
+  app->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+}  // namespace alea::command

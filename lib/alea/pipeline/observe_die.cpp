@@ -1,0 +1,177 @@
+#include "alea/pipeline/observe_die.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "alea/die/assembly.hpp"
+#include "alea/die/pips_chain.hpp"
+#include "alea/die/pips_rule.hpp"
+#include "alea/pipeline/stopwatch.hpp"
+
+namespace alea {
+namespace {
+
+constexpr double pip_radius_share = 0.1;  // of the edge; a pip is masked out of the fit
+constexpr double plausible_range_m =
+    1000;  // an unnamed scanner stands at the origin only if that near
+
+bool is_paper(DieMethod method) {
+  return method != DieMethod::closed_form;
+}
+
+/// Where the scanner may stand when nobody said: at the origin, if that is near enough to the
+/// points.
+std::optional<Eigen::Vector3d> assumed_position(const Cloud& cloud) {
+  if (cloud.scanner_position) return cloud.scanner_position;
+  for (std::size_t i = 0; i < cloud.size(); i += std::max<std::size_t>(1, cloud.size() / 100))
+    if (cloud.positions[i].norm() < plausible_range_m) return Eigen::Vector3d(0, 0, 0);
+  return std::nullopt;
+}
+
+DieFinderOptions finder_options(const DieRegistrationOptions& options,
+                                const std::optional<Eigen::Vector3d>& near_m,
+                                const std::optional<Eigen::Vector3d>& position) {
+  DieFinderOptions out;
+  out.edges_m = options.edges_m;
+  if (options.edge_m > 0) out.edge_m = options.edge_m;
+  out.near_m = near_m;
+  out.facets.fit.noise = options.noise;
+  out.facets.fit.scanner_position = position;
+  const bool orthogonal = is_paper(options.method) || !position;
+  out.facets.fit.method = orthogonal ? FitMethod::orthogonal : FitMethod::along_ray;
+  if (is_paper(options.method)) out.facets.trim_m = 0.0;
+  return out;
+}
+
+/// The order of the facets in which their outward normals have a positive determinant.
+std::array<int, 3> positive_order(int orientation) {
+  return orientation > 0 ? std::array<int, 3>{0, 1, 2} : std::array<int, 3>{0, 2, 1};
+}
+
+/// The published reading: count each facet, two that agree with a die suffice.
+Result<PipReading> read_by_counting(const std::array<FacetImageInput, 3>& images, int orientation,
+                                    const DieRegistrationOptions& options) {
+  const std::array<int, 3> order = positive_order(orientation);
+  PipTriple counts{};
+  for (int k = 0; k < 3; ++k) counts[k] = count_pips(images[order[k]]).count;
+  const Chirality hand = options.chirality.value_or(Chirality::clockwise);
+  const Result<PipTriple> pips = resolve_any_two(counts, hand);
+  if (!pips) return pips.refusal();
+  PipReading reading;
+  reading.hand = hand;
+  for (int k = 0; k < 3; ++k) {
+    reading.pips[order[k]] = (*pips)[k];
+    reading.probability[order[k]] = counts[k] == (*pips)[k] ? 1 : 0;
+  }
+  return reading;
+}
+
+Result<PipReading> read_facets(const Cloud& cloud, const FacetFits& facets,
+                               const CornerAssembly& corner,
+                               const DieRegistrationOptions& options) {
+  const std::array<Plane, 3> planes{facets.fits[0].plane, facets.fits[1].plane,
+                                    facets.fits[2].plane};
+  const std::array<std::span<const std::uint32_t>, 3> indices{facets.indices[0], facets.indices[1],
+                                                              facets.indices[2]};
+  const auto images = facet_images(cloud, indices, planes, corner, facets.edges_m);
+  if (is_paper(options.method)) return read_by_counting(images, corner.orientation, options);
+  PipReaderOptions reader;
+  reader.chirality = options.chirality;
+  return read_pips(images, corner.orientation, reader);
+}
+
+/// Fits again without the pips, which may be recessed or reflect differently.
+FacetFits without_pips(const Cloud& cloud, const std::vector<PlaneRegion>& planes,
+                       const DieCandidate& candidate, const PipReading& reading,
+                       FacetFitOptions options) {
+  std::array<PlaneRegion, 3> regions;
+  for (int k = 0; k < 3; ++k) {
+    const double u_m = candidate.facets.edges_m[(k + 1) % 3],
+                 v_m = candidate.facets.edges_m[(k + 2) % 3];
+    options.masks[k] =
+        pip_discs(reading.pips[k], {u_m, v_m}, pip_radius_share * std::min(u_m, v_m));
+    regions[k] = planes[candidate.regions[k]];
+  }
+  options.edge_radius_m = candidate.facets.edge_radius_m;
+  Result<FacetFits> masked = fit_facets(cloud, regions, options);
+  return masked ? *std::move(masked) : candidate.facets;
+}
+
+DieSighting sighting(const DieCandidate& candidate, const FacetFits& facets,
+                     const PipReading& reading) {
+  std::array<int, 3> order{0, 1, 2};
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return reading.pips[a] < reading.pips[b]; });
+  DieSighting out;
+  out.reading = reading;
+  for (int k = 0; k < 3; ++k) {
+    const int from = order[k];
+    out.die.facets[k] = {reading.pips[from], facets.fits[from], facets.indices[from],
+                         reading.probability[from]};
+    out.edges_m[k] = facets.edges_m[from];
+    out.edges_sd_m[k] = facets.edges_sd_m[from];
+    out.regions[k] = candidate.regions[from];
+  }
+  return out;
+}
+
+/// Reads every candidate; keeps those whose pips can be read, else the best candidate's refusal.
+void read_candidates(const Cloud& cloud, const std::vector<DieCandidate>& candidates,
+                     const FacetFitOptions& fit, const DieRegistrationOptions& options,
+                     ScanSighting& scan) {
+  for (const DieCandidate& candidate : candidates) {
+    const auto& fits = candidate.facets.fits;
+    const auto corner = assemble_corner({fits[0].plane, fits[1].plane, fits[2].plane});
+    if (!corner) continue;
+    const Result<PipReading> reading = read_facets(cloud, candidate.facets, *corner, options);
+    if (!reading) {
+      if (!scan.refusal) scan.refusal = reading.refusal();
+      continue;
+    }
+    const FacetFits facets = is_paper(options.method)
+                                 ? candidate.facets
+                                 : without_pips(cloud, scan.planes, candidate, *reading, fit);
+    scan.dice.push_back(sighting(candidate, facets, *reading));
+  }
+  if (!scan.dice.empty()) scan.refusal.reset();
+}
+
+void find_and_read(const Cloud& cloud, const DieFinderOptions& finder,
+                   const DieRegistrationOptions& options, ScanSighting& scan) {
+  Stopwatch watch;
+  scan.refusal.reset();
+  const Result<std::vector<DieCandidate>> candidates = find_dice(cloud, scan.planes, finder);
+  scan.facets_s += watch.lap_s();
+  if (!candidates) {
+    scan.refusal = candidates.refusal();
+    return;
+  }
+  read_candidates(cloud, *candidates, finder.facets, options, scan);
+  scan.pips_s += watch.lap_s();
+}
+
+}  // namespace
+
+std::string edge_name(int first_pips, int second_pips) {
+  return fmt::format("{}-{}", std::min(first_pips, second_pips), std::max(first_pips, second_pips));
+}
+
+ScanSighting observe_die(const Cloud& cloud, const DieRegistrationOptions& options,
+                         const std::optional<Eigen::Vector3d>& near_m) {
+  ScanSighting scan;
+  Stopwatch watch;
+  scan.planes = detect_planes(cloud, {.detector = options.planes, .seed = options.seed});
+  scan.planes_s = watch.lap_s();
+  const std::optional<Eigen::Vector3d> position = assumed_position(cloud);
+  find_and_read(cloud, finder_options(options, near_m, position), options, scan);
+  if (!scan.refusal || cloud.scanner_position) return scan;
+  // The origin was a guess: without it the facets can still be fitted orthogonally.
+  ScanSighting unplaced = scan;
+  find_and_read(cloud, finder_options(options, near_m, std::nullopt), options, unplaced);
+  unplaced.scanner_position_known = false;
+  return unplaced.refusal ? scan : unplaced;
+}
+
+}  // namespace alea

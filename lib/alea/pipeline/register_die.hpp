@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "alea/core/cloud.hpp"
+#include "alea/core/noise_model.hpp"
+#include "alea/die/die_shape.hpp"
+#include "alea/pipeline/registration.hpp"
+#include "alea/plane/plane_detector.hpp"
+
+namespace alea {
+
+enum class DieMethod {
+  paper,          ///< the published chain with its printed errors corrected
+  paper_literal,  ///< the published chain with its equations as printed
+  closed_form,    ///< shared edge and shared facets, along-ray fits
+};
+
+const char* to_string(DieMethod method);
+
+struct DieRegistrationOptions {
+  DieMethod method = DieMethod::closed_form;
+  PlaneDetector planes = PlaneDetector::cells;
+  double edge_m =
+      0;  ///< nominal or exact length of the shared edge, corner to corner; 0: not known
+  std::optional<std::array<double, 3>> edges_m;  ///< of a cuboid, in any order
+  std::optional<double>
+      edge_sd_m;  ///< standard deviation of edge_m; without it edge_m is taken as exact
+  std::optional<DieShape> shape;  ///< a calibrated shape
+  bool calibrate = false;         ///< estimate the length on planes that both scans see
+  std::optional<Chirality> chirality =
+      Chirality::clockwise;               ///< empty: whichever both scans agree on
+  std::optional<double> tilt_prior_rad;   ///< standard deviation of the facets' tilts
+  std::optional<Eigen::Vector3d> near_m;  ///< where the die is, roughly, in the master frame
+  std::vector<Eigen::Vector3d>
+      check_plane_centroids_m;  ///< master frame; then the other planes calibrate
+  NoiseModel noise;
+  std::uint64_t seed = 1;
+};
+
+/// Registers a slave scan to a master scan by one die that both see. Clouds in metres with
+/// intensity, each in its own frame; the scanner's position from the cloud, else the origin where
+/// that is plausible. The same points in any order give the same bits. Throws Error(input) for a
+/// cloud without intensity. Data that cannot support a transform come back as a refusal inside the
+/// result. Method: Chan et al. 2023 (doi 10.3390/app13031306) and lib/alea/die/README.md.
+Registration register_die(const Cloud& master, const Cloud& slave,
+                          const DieRegistrationOptions& options);
+
+}  // namespace alea
