@@ -6,6 +6,10 @@ std::vector<Topic> die_topics() {
   return {
       {"die", "exactness", "shared edge, noise-free dice, tilts 2 deg, sizes 5 %", run_exactness},
       {"die", "leak", "what frame rules leak of a die's tilts, noise-free", run_leak},
+      {"die", "efficiency", "closed form against bound L, and its covariance",
+       run_efficiency_topic},
+      {"die", "mixed_domains", "negative control: ray selection with an orthogonal fit",
+       run_mixed_domains},
       {"die", "errata", "damage of each misprint on a perfect die", run_errata},
       {"die", "bound_tables", "Fisher bounds against the tables of the die study",
        run_bound_tables},

@@ -24,6 +24,10 @@ void run_pips(const Options& options, const Report& report);
 void run_exactness(const Options& options, const Report& report);
 /// Issue die, line 2: what each frame rule leaks of a die's tilts, 400 dice a cell.
 void run_leak(const Options& options, const Report& report);
+/// Issue die, line 4: the closed form against bound L, 10,000 pairs of scans a cell.
+void run_efficiency_topic(const Options& options, const Report& report);
+/// Issue die, line 4, negative control: points chosen by ray, planes fitted orthogonally.
+void run_mixed_domains(const Options& options, const Report& report);
 /// What each misprint of equations (3) to (8) does on a perfect die.
 void run_errata(const Options& options, const Report& report);
 

@@ -1,0 +1,143 @@
+#include "experiments/die/efficiency_trial.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+
+#include "alea/core/parallel.hpp"
+#include "alea/die/closed_form.hpp"
+#include "alea/die/ideal_observation.hpp"
+#include "alea/evaluate/fisher_bound.hpp"
+#include "alea/simulate/scanner.hpp"
+
+namespace alea::experiments::die {
+namespace {
+
+constexpr std::uint32_t experiment_number = 21;
+
+Die draw_die(const EfficiencyCase& setting, std::uint64_t seed, std::uint64_t trial) {
+  DieModel model;
+  model.size_m.setConstant(setting.edge_m);
+  model.pips.painted = false;
+  model.scene_from_die.translation.z() = setting.edge_m / 2;  // on the floor z = 0, 1 up
+  return build_die(
+      with_random_shape(model, {setting.tilt_sd_rad, 0, 0}, seed, experiment_number, trial));
+}
+
+std::vector<RigidTransform> station_poses(const EfficiencyCase& setting) {
+  DieBoundCase geometry;
+  geometry.edge_m = setting.edge_m;
+  geometry.range_m = setting.range_m;
+  geometry.step_rad = setting.step_rad;
+  std::vector<RigidTransform> poses;
+  for (const FisherStation& station : die_bound_scene(geometry).stations)
+    poses.push_back(station.scene_from_scan);
+  return poses;
+}
+
+/// True planes of the facets that a scan sees, in its frame, ascending in pips.
+ObservedDie seen_truth(const Die& die, const RigidTransform& scene_from_scan) {
+  DieShape shape;
+  for (int f = 0; f < 6; ++f) shape.facets[f] = die.body.planes[f];
+  return observe_exactly(shape, facing_pips(shape, scene_from_scan.translation),
+                         scene_from_scan.inverse());
+}
+
+/// The facet whose plane the ray through `p` (scanner at the origin) meets last.
+int facet_met(const Eigen::Vector3d& p, const std::array<Plane, 3>& planes) {
+  int facet = 0;
+  double farthest = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double share = planes[k].offset_m / planes[k].normal.dot(p);
+    if (share <= farthest) continue;
+    facet = k;
+    farthest = share;
+  }
+  return facet;
+}
+
+std::array<PlaneFit, 3> fit_by_rays(const Cloud& cloud, const std::array<Plane, 3>& planes,
+                                    const PlaneFitOptions& options) {
+  std::array<std::vector<Eigen::Vector3d>, 3> members;
+  for (const Eigen::Vector3d& p : cloud.positions) members[facet_met(p, planes)].push_back(p);
+  return {fit_plane(members[0], options), fit_plane(members[1], options),
+          fit_plane(members[2], options)};
+}
+
+struct ScanResult {
+  ObservedDie die;
+  double top_tilt_rad = 0;
+};
+
+ScanResult observe(const Scene& scene, const EfficiencyCase& setting,
+                   const RigidTransform& scene_from_scan, const SimulationKey& key) {
+  const RandomStream phases({key.seed, key.experiment, key.trial, key.scan, Purpose::station});
+  const auto [column, row] = phases.uniform2_at(0);
+  const Station station =
+      aimed_station(scene_from_scan, bounding_ball(scene.dice[0]), setting.step_rad, {column, row});
+  const Cloud cloud = simulate_scan(scene, station, key);
+  const ObservedDie truth = seen_truth(scene.dice[0], scene_from_scan);
+  PlaneFitOptions options;
+  options.method = setting.fit;
+  // First planes that know the truth, then members by what was measured alone.
+  const auto first = fit_by_rays(cloud, planes_of(truth), options);
+  const auto fits = fit_by_rays(cloud, {first[0].plane, first[1].plane, first[2].plane}, options);
+  ScanResult result{truth, 0};
+  for (int k = 0; k < 3; ++k) result.die.facets[k].fit = fits[k];
+  // The upper facet has one pip, so it comes first.
+  Eigen::Vector3d to_scanner = -fits[0].centroid_m;
+  to_scanner.z() = 0;
+  result.top_tilt_rad =
+      (fits[0].plane.normal - truth.facets[0].fit.plane.normal).dot(to_scanner.normalized());
+  return result;
+}
+
+}  // namespace
+
+EfficiencyTrial run_efficiency_trial(const EfficiencyCase& setting, std::uint64_t seed,
+                                     std::uint64_t trial) {
+  const Die die = draw_die(setting, seed, trial);
+  const auto poses = station_poses(setting);
+  Scene scene;
+  scene.dice.push_back(die);
+  const ScanResult master = observe(scene, setting, poses[0], {seed, experiment_number, trial, 0});
+  const ScanResult slave = observe(scene, setting, poses[1], {seed, experiment_number, trial, 1});
+
+  EfficiencyTrial out;
+  const auto shared = shared_pips(master.die, slave.die);
+  const RigidTransform scan_from_scene = poses[0].inverse();
+  const Eigen::Vector3d centre = scan_from_scene * Eigen::Vector3d(0, 0, setting.edge_m / 2);
+  ClosedFormOptions options;
+  options.edge_m = edge_length_m(die.body, shared.at(0), shared.at(1));
+  options.covariance_about_m = centre;
+  const auto found = register_closed_form(master.die, slave.die, options);
+  out.refused = !found;
+  if (!found) return out;
+  const RigidTransform truth = scan_from_scene * poses[1];
+  const Vector6d error = left_difference(truth, found->master_from_slave, centre);
+  out.rotation_rad = error.head<3>().norm();
+  out.translation_m = (found->master_from_slave * (truth.inverse() * centre) - centre).norm();
+  out.nees = error.dot(found->covariance.covariance.ldlt().solve(error));
+  out.misclosure_chi_square = found->misclosure_chi_square;
+  out.top_tilt_rad = (master.top_tilt_rad + slave.top_tilt_rad) / 2;
+  out.least_variance_factor = 1e300;
+  for (const ScanResult* scan : {&master, &slave})
+    for (const ObservedFacet& facet : scan->die.facets) {
+      out.least_variance_factor = std::min(out.least_variance_factor, facet.fit.variance_factor);
+      out.largest_variance_factor =
+          std::max(out.largest_variance_factor, facet.fit.variance_factor);
+    }
+  return out;
+}
+
+std::vector<EfficiencyTrial> run_efficiency(const EfficiencyCase& setting, std::uint64_t seed,
+                                            std::size_t trials) {
+  std::vector<EfficiencyTrial> results(trials);
+  parallel_chunks(trials, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t trial = begin; trial < end; ++trial)
+      results[trial] = run_efficiency_trial(setting, seed, trial);
+  });
+  return results;
+}
+
+}  // namespace alea::experiments::die
