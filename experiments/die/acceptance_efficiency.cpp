@@ -18,6 +18,7 @@ using experiments::die::EfficiencyTrial;
 using experiments::die::run_efficiency;
 
 constexpr double deg = std::numbers::pi / 180;
+constexpr std::uint64_t own_trials = 10000;
 
 /// Mean of a number over the trials that were not refused, with its standard error.
 struct Mean {
@@ -76,8 +77,12 @@ PoseAccuracy bound_of(const EfficiencyCase& setting) {
   return die_bound(geometry);
 }
 
-void report_case(const EfficiencyCase& setting, const Options& options, const Report& report) {
-  const auto trials = run_efficiency(setting, options.seed, options.trials_or(10000));
+void report_case(const EfficiencyCase& setting, const Options& options, const Report& all_cells) {
+  const auto trials = run_efficiency(setting, options.seed, options.trials_or(own_trials));
+  const Report report = [&](Cell cell) {
+    if (cell.judgement == Judgement::interval) cell.judgement = options.judgement(own_trials);
+    all_cells(cell);
+  };
   const PoseAccuracy bound = bound_of(setting);
   const std::string name = fmt::format("{:g} m, {:g} m, {:g} mrad: ", setting.edge_m,
                                        setting.range_m, setting.step_rad * 1e3);

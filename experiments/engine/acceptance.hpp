@@ -52,6 +52,11 @@ struct Options {
   std::uint64_t seed = 1;
   /// The topic's own number of trials where none was asked for.
   std::uint64_t trials_or(std::uint64_t own) const { return trials > 0 ? trials : own; }
+  /// By interval at the topic's own number or more; a smaller run states its n and is judged by its
+  /// point estimates.
+  Judgement judgement(std::uint64_t own) const {
+    return trials_or(own) >= own ? Judgement::interval : Judgement::point;
+  }
 };
 
 /// Receives the cells of a topic one by one, as they are known.
