@@ -17,6 +17,7 @@ namespace {
 /// lies on the other side of half the contrast, beyond what its standard error excuses.
 void judge_places(const PipRaster& raster, const PipPlaces& places, const PipPattern& pattern,
                   FacetEvidence& evidence) {
+  evidence.places_wrong = 0;
   Eigen::Matrix<double, pip_places, 1> on;
   for (int place = 0; place < pip_places; ++place) on[place] = pattern.has(place) ? 1 : 0;
   const double amplitude = on.dot(places.projection) / on.dot(places.gram * on);
@@ -44,10 +45,18 @@ double unexplained_share(const PipLackOfFit& fit) {
   return excess > 0 && fit.before > 0 ? excess / fit.before : 0;
 }
 
+void judge_facet(const PipRaster& raster, const FacetImageInput& image,
+                 const PipTemplateShape& shape, const PipPattern& pattern,
+                 FacetEvidence& evidence) {
+  judge_places(raster, correlate_places(raster, image, shape), pattern, evidence);
+  evidence.unexplained = unexplained_share(lack_of_fit(raster, image, shape, pattern));
+}
+
 std::array<FacetEvidence, 3> gather_evidence(const std::array<PipRaster, 3>& rasters,
                                              const std::array<const FacetImageInput*, 3>& images,
                                              const FacetTables& tables, const PipHypothesis& best,
                                              const PipReaderOptions& options) {
+  constexpr double clearly_explained = 0.1;  // otherwise the lattice may sit a bit off
   std::array<FacetEvidence, 3> facets;
   for (std::size_t k = 0; k < 3; ++k) {
     facets[k].gain = tables[k].gain[best.contrast];
@@ -57,9 +66,10 @@ std::array<FacetEvidence, 3> gather_evidence(const std::array<PipRaster, 3>& ras
     if (form < 0) continue;
     const PipPattern& pattern = pip_patterns[static_cast<std::size_t>(form)];
     PipTemplateShape shape = template_shape(best.lattice, *images[k], options);
+    judge_facet(rasters[k], *images[k], shape, pattern, facets[k]);
+    if (facets[k].unexplained <= clearly_explained && facets[k].places_wrong == 0) continue;
     shape.shift = fit_shift(rasters[k], *images[k], shape, pattern);
-    judge_places(rasters[k], correlate_places(rasters[k], *images[k], shape), pattern, facets[k]);
-    facets[k].unexplained = unexplained_share(lack_of_fit(rasters[k], *images[k], shape, pattern));
+    judge_facet(rasters[k], *images[k], shape, pattern, facets[k]);
   }
   return facets;
 }
