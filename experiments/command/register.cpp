@@ -5,7 +5,7 @@ namespace alea::command {
 void add_register(CLI::App& app, int& exit_code) {
   CLI::App* parent = app.add_subcommand("register", "Find the rigid transform between scans");
   parent->require_subcommand(1);
-  for (const AddSubcommand add : {add_register_die}) add(*parent, exit_code);
+  for (const AddSubcommand add : {add_register_die, add_register_spheres}) add(*parent, exit_code);
 }
 
 }  // namespace alea::command

@@ -1,4 +1,4 @@
-#include "experiments/command/register_spheres.hpp"
+#include "alea/pipeline/register_spheres.hpp"
 
 #include <fmt/format.h>
 
@@ -10,9 +10,9 @@
 #include "alea/core/error.hpp"
 #include "alea/core/parallel.hpp"
 #include "alea/io/cloud_file.hpp"
-#include "alea/pipeline/register_spheres.hpp"
 #include "experiments/command/noise_file.hpp"
 #include "experiments/command/reading.hpp"
+#include "experiments/command/register.hpp"
 #include "experiments/command/registration_json.hpp"
 
 namespace alea::command {
