@@ -83,9 +83,14 @@ Tally run_trials(const die::PipTrialOptions& setting, std::uint32_t cell, const 
 
 }  // namespace
 
-void run_pips(const Options& options, const Report& report) {
+void run_pips(const Options& options, const Report& all_cells) {
   constexpr std::uint32_t experiment = 70;
-  const std::uint64_t trials = options.trials_or(3000);
+  constexpr std::uint64_t own_trials = 3000;
+  const std::uint64_t trials = options.trials_or(own_trials);
+  const Report report = [&](Cell cell) {
+    if (cell.judgement == Judgement::interval) cell.judgement = options.judgement(own_trials);
+    all_cells(cell);
+  };
   for (const double range_m : {3.0, 6.0, 12.0, 20.0, 30.0, 40.0}) {
     die::PipTrialOptions setting;
     setting.range_m = range_m;
