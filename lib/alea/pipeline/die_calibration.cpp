@@ -106,6 +106,12 @@ Result<DieTransform> calibrate_linearly(const DiePair& pair, const std::vector<C
   for (std::size_t i = 0; i < planes.size(); ++i)
     if (roles[i] == CheckPlaneRole::calibration)
       calibration.push_back({planes[i].fit_master, planes[i].fit_slave});
+  if (calibration.empty())
+    return Refusal{
+        RefusalCode::unobservable,
+        fmt::format("no plane to calibrate the length on ({} planes that both scans see, "
+                    "none left for it); scan walls or floor too, or measure the edge",
+                    planes.size())};
   // A length taken as exact is only an initial value here, so its variance must not enter twice.
   DieRegistrationOptions exact = options;
   exact.edge_sd_m.reset();

@@ -158,20 +158,24 @@ std::string edge_name(int first_pips, int second_pips) {
   return fmt::format("{}-{}", std::min(first_pips, second_pips), std::max(first_pips, second_pips));
 }
 
-ScanSighting observe_die(const Cloud& cloud, const DieRegistrationOptions& options,
+ScanSighting observe_die(Cloud& cloud, const DieRegistrationOptions& options,
                          const std::optional<Eigen::Vector3d>& near_m) {
+  const bool position_given = cloud.scanner_position.has_value();
+  cloud.scanner_position = assumed_position(cloud);
   ScanSighting scan;
   Stopwatch watch;
   scan.planes = detect_planes(cloud, {.detector = options.planes, .seed = options.seed});
   scan.planes_s = watch.lap_s();
-  const std::optional<Eigen::Vector3d> position = assumed_position(cloud);
-  find_and_read(cloud, finder_options(options, near_m, position), options, scan);
-  if (!scan.refusal || cloud.scanner_position) return scan;
+  scan.scanner_position_known = cloud.scanner_position.has_value();
+  find_and_read(cloud, finder_options(options, near_m, cloud.scanner_position), options, scan);
+  if (!scan.refusal || position_given || !cloud.scanner_position) return scan;
   // The origin was a guess: without it the facets can still be fitted orthogonally.
   ScanSighting unplaced = scan;
   find_and_read(cloud, finder_options(options, near_m, std::nullopt), options, unplaced);
+  if (unplaced.refusal) return scan;
+  cloud.scanner_position.reset();
   unplaced.scanner_position_known = false;
-  return unplaced.refusal ? scan : unplaced;
+  return unplaced;
 }
 
 }  // namespace alea

@@ -31,9 +31,9 @@ struct ScanSighting {
 };
 
 /// Finds and reads the dice of one scan. The facets are fitted along the ray where the scanner's
-/// position is known or the origin may be it, else orthogonally (DESIGN: conventions). `near_m` is
-/// in the scan's own frame.
-ScanSighting observe_die(const Cloud& cloud, const DieRegistrationOptions& options,
+/// position is known or the origin may be it, else orthogonally; the cloud keeps the position that
+/// was used. `near_m` is in the scan's own frame.
+ScanSighting observe_die(Cloud& cloud, const DieRegistrationOptions& options,
                          const std::optional<Eigen::Vector3d>& near_m);
 
 /// Name of the edge between two facets: "1-2".
