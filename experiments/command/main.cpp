@@ -39,6 +39,8 @@ extern "C" void on_bus_error(int, siginfo_t* info, void*) {
 void install_handlers() {
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
+  // A write beyond the limit on a file's size then fails like one on a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
   struct sigaction action {};
   action.sa_sigaction = on_bus_error;
   action.sa_flags = SA_SIGINFO;

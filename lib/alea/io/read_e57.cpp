@@ -105,9 +105,9 @@ class Filler {
           cloud.normals[i][static_cast<int>(axis)] = static_cast<float>(v);
         });
       if (!channels.colours) continue;
-      const auto [low, high] = colour_range(scan_, *layout_.colour[axis]);
+      const std::array<double, 2> range = colour_range(scan_, *layout_.colour[axis]);
       each(layout_.colour[axis], [&](std::size_t i, double v) {
-        const double share = std::clamp((v - low) / (high - low), 0.0, 1.0);
+        const double share = std::clamp((v - range[0]) / (range[1] - range[0]), 0.0, 1.0);
         cloud.colours[i][axis] =
             static_cast<std::uint16_t>(std::lround(std::isfinite(share) ? share * 65535 : 0));
       });
