@@ -101,8 +101,15 @@ TwinOutcome run_twin(const PublishedTables& tables, const std::string& dataset,
 
   Recorder recorder(twin, observed, outcome);
   recorder.record(TwinMethod::perfect, twin.master_from_slave(), 0);
+  const std::optional<LengthFamily> closed_form = closed_form_family(twin, observed);
   recorder.record(TwinMethod::closed_form_nominal, TwinMethod::closed_form_check,
-                  TwinMethod::closed_form_independent, closed_form_family(twin, observed));
+                  TwinMethod::closed_form_independent, closed_form);
+  if (closed_form && (dataset == "B" || dataset == "C")) {
+    const double length_m = parse_printed(tables.dice.front().calibrated_edge_m).value;
+    const double change_m = length_m - twin.nominal_edge_m;
+    recorder.record(TwinMethod::closed_form_borrowed,
+                    closed_form->at(Eigen::VectorXd::Constant(1, change_m)), length_m);
+  }
   recorder.record(TwinMethod::paper_nominal, TwinMethod::paper_check, TwinMethod::paper_independent,
                   paper_family(twin, observed, FrameRule::fix_z));
   recorder.record(TwinMethod::nearest_nominal, TwinMethod::nearest_check,

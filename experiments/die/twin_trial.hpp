@@ -16,6 +16,7 @@ enum class TwinMethod : std::size_t {
   closed_form_nominal,      ///< length on the box
   closed_form_check,        ///< calibrated on the check planes themselves (circular)
   closed_form_independent,  ///< calibrated on other planes
+  closed_form_borrowed,     ///< with dataset A's length (B and C are of the same die)
   paper_nominal,            ///< equations 1 to 8, vertical edge fixed
   paper_check,
   paper_independent,
