@@ -19,6 +19,8 @@ std::vector<Topic> die_topics() {
       {"die", "pips", "pips read by the counting chain and by likelihood, against the range",
        run_pips},
       {"die", "spheres", "registration by six spheres against its bound, 0.3 mrad", run_spheres},
+      {"die", "twins", "twins of datasets A to D, length calibrated on independent planes",
+       run_twins},
   };
 }
 

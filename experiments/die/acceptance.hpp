@@ -30,5 +30,7 @@ void run_efficiency_topic(const Options& options, const Report& report);
 void run_mixed_domains(const Options& options, const Report& report);
 /// What each misprint of equations (3) to (8) does on a perfect die.
 void run_errata(const Options& options, const Report& report);
+/// Issue die, line 6: twins of datasets A to D, calibrated on independent planes, 300 dice each.
+void run_twins(const Options& options, const Report& report);
 
 }  // namespace alea::acceptance

@@ -7,6 +7,11 @@
 
 #include "alea/core/error.hpp"
 #include "experiments/die/audit.hpp"
+#include "experiments/die/errata.hpp"
+#include "experiments/die/figures.hpp"
+#include "experiments/die/statements.hpp"
+#include "experiments/die/twin_tables.hpp"
+#include "experiments/engine/pictures.hpp"
 
 namespace alea::experiments::die {
 namespace {
@@ -14,7 +19,7 @@ namespace {
 std::string summary_line(const ResultTable& table) {
   std::map<Verdict, int> counts;
   for (const Cell& cell : table.cells) ++counts[cell.verdict];
-  return fmt::format("{:<12} {:3} agree, {:3} differ, {:3} undecidable   {}\n", table.id,
+  return fmt::format("{:<17} {:3} agree, {:3} differ, {:3} undecidable   {}\n", table.id,
                      counts[Verdict::agrees], counts[Verdict::differs],
                      counts[Verdict::undecidable], table.title);
 }
@@ -28,13 +33,32 @@ std::string reproduce_die(const ReproductionOptions& options) {
     throw input_error(fmt::format("{}: cannot make the folder ({}); give another --out",
                                   options.out, error.message()));
   const PublishedTables published = load_published_tables();
+  TwinTrialOptions trial;
+  trial.seed = options.seed;
+  TwinRuns runs;
+  for (const std::string dataset : {"A", "B", "C", "D"})
+    runs[dataset] =
+        run_twins(published, dataset, trial, options.smoke ? 24 : 300, options.progress);
+
+  std::vector<ResultTable> tables{twin_table1(published, runs)};
+  for (const std::string dataset : {"A", "B", "C", "D"})
+    tables.push_back(twin_check_plane_table(published, runs, dataset));
+  tables.push_back(twin_table6(published, runs));
+  tables.push_back(twin_statements(runs));
+  tables.push_back(shape_statements(options.smoke ? 100 : 400, options.seed));
+  tables.push_back(audit_published(published));
+  tables.push_back(errata_table(options.seed));
+  tables.push_back(frame_rule_table(options.smoke ? 100 : 400, options.seed));
+
   std::string report, summary;
-  for (const ResultTable& table : {audit_published(published)}) {
+  for (const ResultTable& table : tables) {
     write_table(options.out, table);
     report += as_text(table) + "\n";
     summary += summary_line(table);
   }
-  return report + summary;
+  write_figure_data(published, options.seed, options.out);
+  const std::string no_pictures = draw_pictures(options.out);
+  return report + summary + (no_pictures.empty() ? "" : no_pictures + "\n");
 }
 
 }  // namespace alea::experiments::die

@@ -24,11 +24,13 @@ std::vector<double> collect(const std::vector<TwinOutcome>& twins, const TwinVal
 // "Less than": holds where our whole central 95 % does.
 Cell bound_cell(const std::string& row, const std::string& column, const std::string& unit,
                 double limit, const std::string& printed, const std::vector<double>& values) {
-  if (values.empty()) return {row, column, unit, printed, std::nullopt, Verdict::differs, "refused"};
+  if (values.empty())
+    return {row, column, unit, printed, std::nullopt, Verdict::differs, "refused"};
   Cell cell = own_cell(row, column, unit, values);
   cell.printed = printed;
   cell.verdict = cell.ours->high < limit ? Verdict::agrees : Verdict::differs;
-  const auto holds = std::count_if(values.begin(), values.end(), [&](double v) { return v < limit; });
+  const auto holds =
+      std::count_if(values.begin(), values.end(), [&](double v) { return v < limit; });
   cell.note = fmt::format("holds for {:.0f} % of {} twins",
                           100.0 * static_cast<double>(holds) / static_cast<double>(values.size()),
                           values.size());
@@ -55,11 +57,11 @@ void add_sphere_cells(const std::string& dataset, const std::vector<TwinOutcome>
           largest = std::max(largest, std::abs(die.union_m[k] - ball.union_m[k]));
         return 1e3 * largest;
       });
-      cells.push_back(bound_cell(
-          "dataset " + dataset,
-          fmt::format("RMSE within 0.5 mm of {} spheres: {}",
-                      spheres == TwinMethod::spheres_six ? "six" : "four", reading.name),
-          "mm", 0.5, "<0.5", values));
+      cells.push_back(
+          bound_cell("dataset " + dataset,
+                     fmt::format("RMSE within 0.5 mm of {} spheres: {}",
+                                 spheres == TwinMethod::spheres_six ? "six" : "four", reading.name),
+                     "mm", 0.5, "<0.5", values));
     }
   }
 }
@@ -108,9 +110,10 @@ void add_borrowed_cells(const std::string& dataset, const std::vector<TwinOutcom
       worst = std::max(worst, borrowed.union_m[k] - own.union_m[k]);
     return 1e3 * worst;
   };
-  cells.push_back(bound_cell("dataset " + dataset,
-                             "no need to repeat the calibration: RMSE added by A's length, worst plane",
-                             "mm", 0.1, "0", collect(twins, worst_excess)));
+  cells.push_back(
+      bound_cell("dataset " + dataset,
+                 "no need to repeat the calibration: RMSE added by A's length, worst plane", "mm",
+                 0.1, "0", collect(twins, worst_excess)));
 }
 
 // Horizontal planes cannot see a horizontal length; the print says that they do.

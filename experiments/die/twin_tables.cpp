@@ -43,7 +43,7 @@ Cell plane_cell(const std::vector<TwinOutcome>& twins, std::size_t plane, const 
 
 struct Column {
   std::string name;
-  std::string PublishedCheckPlane::* printed;  ///< null: our own
+  std::string PublishedCheckPlane::*printed;  ///< null: our own
   TwinMethod method;
 };
 
@@ -138,16 +138,16 @@ ResultTable twin_table1(const PublishedTables& tables, const TwinRuns& runs) {
     const std::vector<TwinOutcome>& twins = runs.at(scan.dataset);
     const auto k = static_cast<std::size_t>(scan.cloud - 1);
     const std::string row = fmt::format("{}-{}", scan.dataset, scan.cloud);
+    table.cells.push_back(input_cell(
+        row, "points on the die", "", scan.points,
+        values_of(twins, [&](const auto& t) { return static_cast<double>(t.die_points[k]); })));
     table.cells.push_back(
-        input_cell(row, "points on the die", "", scan.points, values_of(twins, [&](const auto& t) {
-                     return static_cast<double>(t.die_points[k]);
-                   })));
-    table.cells.push_back(own_cell(row, "angular step implied", "mrad", values_of(twins, [&](const auto& t) {
-                                     return 1e3 * t.step_rad[k];
-                                   })));
-    table.cells.push_back(own_cell(row, "spacing implied", "mm", values_of(twins, [&](const auto& t) {
-                                     return 1e3 * t.step_rad[k] * scan.scanner_to_die_m;
-                                   })));
+        own_cell(row, "angular step implied", "mrad",
+                 values_of(twins, [&](const auto& t) { return 1e3 * t.step_rad[k]; })));
+    table.cells.push_back(
+        own_cell(row, "spacing implied", "mm", values_of(twins, [&](const auto& t) {
+                   return 1e3 * t.step_rad[k] * scan.scanner_to_die_m;
+                 })));
   }
   return table;
 }
@@ -188,10 +188,9 @@ ResultTable twin_table6(const PublishedTables& tables, const TwinRuns& runs) {
     const std::array<std::string, 3> printed{die.angle_xy_deg, die.angle_xz_deg, die.angle_yz_deg};
     const std::array<const char*, 3> names{"angle XY", "angle XZ", "angle YZ"};
     for (std::size_t k = 0; k < 3; ++k)
-      table.cells.push_back(input_cell(row, names[k], "deg", printed[k],
-                                       values_of(twins, [&](const auto& t) {
-                                         return t.angles_rad[scan][k] / deg;
-                                       })));
+      table.cells.push_back(
+          input_cell(row, names[k], "deg", printed[k],
+                     values_of(twins, [&](const auto& t) { return t.angles_rad[scan][k] / deg; })));
     if (die.cloud == 2) add_edge_cells(twins, die, table.cells);
   }
   return table;
