@@ -53,11 +53,12 @@ def plot_extraction(rows, path):
     near = facet > 0
     figure, panels = plt.subplots(1, 3, figsize=(15, 4.6), subplot_kw={"projection": "3d"})
     thin = slice(None, None, max(1, len(x) // 25000))
-    panels[0].scatter(x[thin], y[thin], z[thin], c=column(rows, "intensity")[thin], s=0.3, cmap="gray")
+    panels[0].scatter(x[thin], y[thin], z[thin], c=column(rows, "intensity")[thin], s=0.3, cmap="gray",
+                      rasterized=True)
     panels[0].set_title("(a) cloud, by intensity")
     in_plane = region >= 0
     panels[1].scatter(x[in_plane][thin], y[in_plane][thin], z[in_plane][thin], c=region[in_plane][thin] % 20,
-                      s=0.3, cmap="tab20")
+                      s=0.3, cmap="tab20", rasterized=True)
     panels[1].set_title(f"(b) planes: {region.max() + 1}")
     panels[2].scatter(x[near], y[near], z[near], c=facet[near], s=1.0, cmap="Set1", vmin=1, vmax=9)
     panels[2].set_title(f"(c) die: {near.sum()} points on three facets" if near.any() else "(c) no die found")
@@ -68,6 +69,7 @@ def plot_extraction(rows, path):
         panel.view_init(elev=28, azim=-50)
     for panel in panels[:2]:
         panel.set_box_aspect((np.ptp(x), np.ptp(y), np.ptp(z)))
+        panel.set_zticks([0, 1, 2, 3])
     if near.any():
         panels[2].set_box_aspect((np.ptp(x[near]), np.ptp(y[near]), np.ptp(z[near])))
     save(figure, path)
@@ -110,13 +112,13 @@ def draw_arrows(panel, rows, names=True):
             panel.text(*(float(of_kind[0][f"{axis}0_m"]) for axis in "xyz"), kind, fontsize=8)
 
 
-def equal_axes(panel, rows):
+def equal_axes(panel, rows, zoom=1.0):
     points = np.array([[float(row[f"{axis}{end}_m"]) for axis in "xyz"] for row in rows for end in "01"])
     low, high = points.min(axis=0), points.max(axis=0)
     half = 0.55 * (high - low).max()
     for k, set_limits in enumerate((panel.set_xlim, panel.set_ylim, panel.set_zlim)):
         set_limits((low[k] + high[k]) / 2 - half, (low[k] + high[k]) / 2 + half)
-    panel.set_box_aspect((1, 1, 1))
+    panel.set_box_aspect((1, 1, 1), zoom=zoom)
 
 
 def plot_axes(rows, path):
@@ -140,9 +142,10 @@ def plot_frames(rows, path):
     for number, (name, of_panel) in enumerate(groups(rows, "panel").items(), 1):
         panel = figure.add_subplot(4, 6, number, projection="3d")
         draw_arrows(panel, of_panel, names=False)
-        equal_axes(panel, of_panel)
+        equal_axes(panel, of_panel, zoom=1.35)
         panel.set_axis_off()
         panel.set_title(name, fontsize=8)
+    figure.subplots_adjust(left=0, right=1, bottom=0.05, top=0.97, wspace=0, hspace=0.1)
     handles = [plt.Line2D([], [], color=colour, lw=2, label=letter) for letter, colour in AXIS_COLOURS.items()]
     figure.legend(handles=handles, loc="lower center", ncol=3)
     save(figure, path)
@@ -178,7 +181,8 @@ def plot_registered(rows, path):
         for panel, state in zip(line, ("before", "after")):
             for scan, colour in (("master", MASTER), ("slave", SLAVE)):
                 points = [row for row in of_dataset if row["state"] == state and row["scan"] == scan]
-                panel.plot(column(points, "x_m"), column(points, "y_m"), ".", color=colour, ms=1, label=scan)
+                panel.plot(column(points, "x_m"), column(points, "y_m"), ".", color=colour, ms=1, label=scan,
+                           rasterized=True)
             panel.set_aspect("equal")
             panel.set_title(f"{dataset}, {state} the calibration")
             panel.set_xlabel("x (m)")

@@ -44,14 +44,14 @@ void append_curve(const std::string& method, const std::optional<LengthFamily>& 
 // A cabinet beyond the die along the shared edge, where a wrong length shows.
 Box cabinet(const Twin& twin) {
   Box box;
-  box.size_m = {0.4, 0.8, 1.8};
+  box.size_m = {0.4, 0.8, 2.2};  // higher than any scanner: its top stays out of sight
   const Eigen::Vector3d sideways = twin.edge_direction.cross(Eigen::Vector3d::UnitZ());
   const Eigen::Vector3d behind =
       -(twin.scene_from_scan[0].translation + twin.scene_from_scan[1].translation);
   const Eigen::Vector3d away = sideways.dot(behind) > 0 ? sideways : Eigen::Vector3d(-sideways);
   const double heading = std::atan2(away.y(), away.x()) + 0.6;
   const Eigen::Vector3d place = 1.8 * away;
-  box.scene_from_box = levelled_pose({place.x(), place.y(), 0.9}, heading);
+  box.scene_from_box = levelled_pose({place.x(), place.y(), 1.1}, heading);
   return box;
 }
 

@@ -77,7 +77,7 @@ std::string all_frames_csv() {
   int number = 0;
   for (const FrameLabel& label : all_frame_labels(Chirality::clockwise)) {
     const DieShape shape = cube(1, Chirality::clockwise);
-    const std::string panel = fmt::format("{}: {} up, {}", ++number, label.up, axis_names(label));
+    const std::string panel = fmt::format("{}: {} up; {}", ++number, label.up, axis_names(label));
     append_cube(csv, panel, 1, {});
     const Eigen::Vector3d up = shape.facet(label.up)->normal, x = shape.facet(label.x_side)->normal,
                           y = shape.facet(label.y_side)->normal;

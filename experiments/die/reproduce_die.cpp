@@ -44,7 +44,7 @@ std::string reproduce_die(const ReproductionOptions& options) {
   for (const std::string dataset : {"A", "B", "C", "D"})
     tables.push_back(twin_check_plane_table(published, runs, dataset));
   tables.push_back(twin_table6(published, runs));
-  tables.push_back(twin_statements(runs));
+  tables.push_back(twin_statements(published, runs));
   tables.push_back(shape_statements(options.smoke ? 100 : 400, options.seed));
   tables.push_back(audit_published(published));
   tables.push_back(errata_table(options.seed));

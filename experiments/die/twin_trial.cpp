@@ -84,7 +84,8 @@ void describe_planes(const Twin& twin, const TwinObservation& observed, TwinOutc
 
 TwinOutcome run_twin(const PublishedTables& tables, const std::string& dataset,
                      const TwinTrialOptions& options, std::uint64_t trial) {
-  const Twin twin = draw_twin(tables, dataset, options.prior, options.seed, trial);
+  Twin twin = draw_twin(tables, dataset, options.prior, options.seed, trial);
+  for (double& step_rad : twin.step_rad) step_rad *= options.step_scale;
   const TwinObservation observed = observe_twin(twin, options.seed, trial, options.plane_points);
 
   TwinOutcome outcome;

@@ -64,7 +64,8 @@ struct TwinTrialOptions {
   TwinPrior prior;
   double bias_rad = 0.0039;  ///< of the nearest reading's planes (0.225 deg)
   double plane_points = 1600;
-  bool bounds = false;  ///< compute the plane's bounds too
+  double step_scale = 1;  ///< of the angular steps on the die; 1 gives the printed point counts
+  bool bounds = false;    ///< compute the plane's bounds too
   std::uint64_t seed = 1;
 };
 
