@@ -21,6 +21,8 @@ std::vector<Topic> die_topics() {
       {"die", "spheres", "registration by six spheres against its bound, 0.3 mrad", run_spheres},
       {"die", "twins", "twins of datasets A to D, length calibrated on independent planes",
        run_twins},
+      {"die", "extraction", "facets from points: rounded edges with and without trim, naive bands",
+       run_extraction},
   };
 }
 

@@ -32,5 +32,7 @@ void run_mixed_domains(const Options& options, const Report& report);
 void run_errata(const Options& options, const Report& report);
 /// Issue die, line 6: twins of datasets A to D, calibrated on independent planes, 300 dice each.
 void run_twins(const Options& options, const Report& report);
+/// Issue die, line 5: rotation of dice extracted from points against bound L of the whole facets.
+void run_extraction(const Options& options, const Report& report);
 
 }  // namespace alea::acceptance
