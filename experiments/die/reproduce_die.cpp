@@ -45,10 +45,10 @@ std::string reproduce_die(const ReproductionOptions& options) {
     tables.push_back(twin_check_plane_table(published, runs, dataset));
   tables.push_back(twin_table6(published, runs));
   tables.push_back(twin_statements(published, runs));
-  tables.push_back(shape_statements(options.smoke ? 100 : 400, options.seed));
+  tables.push_back(shape_statements(options.smoke ? 60 : 400, options.seed));
   tables.push_back(audit_published(published));
   tables.push_back(errata_table(options.seed));
-  tables.push_back(frame_rule_table(options.smoke ? 100 : 400, options.seed));
+  tables.push_back(frame_rule_table(options.smoke ? 24 : 400, options.seed));
 
   std::string report, summary;
   for (const ResultTable& table : tables) {
