@@ -57,6 +57,7 @@ int run(int argc, char** argv) {
            add_convert,
            add_merge,
            add_evaluate,
+           add_apply,
            add_simulate,
            add_register,
            add_acceptance,
