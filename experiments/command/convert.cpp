@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <utility>
 
 #include "alea/core/parallel.hpp"
 #include "alea/io/cloud_file.hpp"
@@ -23,10 +24,10 @@ int run(const Convert& convert) {
   ReadOptions options = read_options(convert.reading);
   options.accept_non_rigid_pose = true;
   thin(convert.thinning, options);
-  const std::vector<ScanFile> scans = read_scans(convert.in, options);
+  std::vector<ScanFile> scans = read_scans(convert.in, options);
   for (const std::string& warning : pose_warnings(scans))
     fmt::print(stderr, "alea: warning: {}\n", warning);
-  write_scans(convert.out, scans, options);
+  write_scans(convert.out, std::move(scans), options);
   return exit_done;
 }
 

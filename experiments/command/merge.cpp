@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <utility>
 
 #include "alea/core/error.hpp"
 #include "alea/core/parallel.hpp"
@@ -31,7 +32,7 @@ int run(const Merge& merge) {
       scans.push_back(std::move(scan));
     }
   }
-  write_scans(merge.out, scans, options);
+  write_scans(merge.out, std::move(scans), options);
   return exit_done;
 }
 

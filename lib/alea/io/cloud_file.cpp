@@ -59,18 +59,25 @@ bool keeps_poses(const std::string& extension) {
   return extension == "ptx" || extension == "e57";
 }
 
+// Not an initializer list, which would copy the points.
+std::vector<ScanFile> alone(ScanFile scan) {
+  std::vector<ScanFile> scans;
+  scans.push_back(std::move(scan));
+  return scans;
+}
+
 std::vector<ScanFile> read_format(const InputFile& file, const ReadOptions& options) {
   const std::string_view bytes = file.bytes();
   const std::string extension = extension_of(file.path());
   refuse_known(file, extension);
   if (bytes.starts_with("ASTM-E57") || extension == "e57") return read_e57(file, options);
-  if (bytes.starts_with("LASF") || extension == "las") return {read_las(file, options)};
-  if (bytes.starts_with("ply") || extension == "ply") return {read_ply(file, options)};
+  if (bytes.starts_with("LASF") || extension == "las") return alone(read_las(file, options));
+  if (bytes.starts_with("ply") || extension == "ply") return alone(read_ply(file, options));
   if (bytes.starts_with("# .PCD") || bytes.starts_with("VERSION") || extension == "pcd")
-    return {read_pcd(file, options)};
+    return alone(read_pcd(file, options));
   if (extension == "ptx") return read_ptx(file, options);
   if (extension == "pts") return read_pts(file, options);
-  if (is_text(extension)) return {read_xyz(file, options)};
+  if (is_text(extension)) return alone(read_xyz(file, options));
   throw input_error(fmt::format(
       "{}: unknown format '{}'; expected ply, pcd, xyz, txt, csv, asc, pts, ptx, e57 or "
       "las",
@@ -88,7 +95,7 @@ std::vector<ScanFile> read_scans(const std::string& path, const ReadOptions& opt
   if (source.scan > scans.size())
     throw input_error(fmt::format("{}: scan {} of {}; the number after # counts from 1",
                                   source.path, source.scan, scans.size()));
-  return {std::move(scans[source.scan - 1])};
+  return alone(std::move(scans[source.scan - 1]));
 }
 
 Cloud read_cloud(const std::string& path, const ReadOptions& options) {
@@ -106,16 +113,16 @@ void write_cloud(const std::string& path, const Cloud& cloud) {
                   path, extension));
 }
 
-void write_scans(const std::string& path, const std::vector<ScanFile>& scans,
-                 const ReadOptions& options) {
+void write_scans(const std::string& path, std::vector<ScanFile> scans, const ReadOptions& options) {
   const std::string extension = extension_of(path);
-  if (!keeps_poses(extension)) return write_cloud(path, merged_scans(scans, options));
-  std::vector<ScanFile> moved;
-  for (const ScanFile& scan : scans)
-    if (options.apply_pose)
-      moved.push_back({merged_scans({scan}, options), std::nullopt, scan.name, {}});
-  const std::vector<ScanFile>& out = options.apply_pose ? moved : scans;
-  extension == "ptx" ? write_ptx(path, out) : write_e57(path, out);
+  if (!keeps_poses(extension)) return write_cloud(path, merged_scans(std::move(scans), options));
+  if (options.apply_pose) {
+    for (ScanFile& scan : scans) {
+      const std::string name = scan.name;
+      scan = {merged_scans(alone(std::move(scan)), options), std::nullopt, name, {}};
+    }
+  }
+  extension == "ptx" ? write_ptx(path, scans) : write_e57(path, scans);
 }
 
 }  // namespace alea

@@ -33,7 +33,7 @@ void write_cloud(const std::string& path, const Cloud& cloud);
 /// The same for several scans. E57 and PTX keep each scan in its own frame with its pose, unless
 /// options.apply_pose moves them into the common one; the other formats have room for one cloud and
 /// get merged_scans(scans, options).
-void write_scans(const std::string& path, const std::vector<ScanFile>& scans,
+void write_scans(const std::string& path, std::vector<ScanFile> scans,
                  const ReadOptions& options = {});
 
 /// One line for each pose that is not rigid, starting with "pose_not_rigid".
