@@ -11,7 +11,7 @@
 namespace alea {
 namespace {
 
-constexpr int max_iterations = 12, interior_passes = 3;
+constexpr int max_iterations = 12, interior_passes = 2;
 constexpr double settled_m = 1e-7, settled_rad = 1e-7;
 constexpr double interior_share = 0.15;  // of an edge, trimmed before the radius is known
 constexpr double depth_share = 0.08;  // of an edge: how deep below a plane a rounded edge may lie
@@ -173,7 +173,7 @@ void fit_members(const Members& members, const FacetFitOptions& options, const F
                  FacetFits& out) {
   std::array<Plane, 3> planes;
   for (int k = 0; k < 3; ++k) {
-    out.fits[k] = fit_plane(members[k], options.fit);
+    out.fits[k] = fit_plane(members[k], corner.planes[k], options.fit);
     if (out.fits[k].plane.normal.dot(corner.planes[k].normal) < 0)
       out.fits[k] = flipped(out.fits[k]);
     planes[k] = out.fits[k].plane;

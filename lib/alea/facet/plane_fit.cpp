@@ -14,7 +14,7 @@ using Points = std::span<const Eigen::Vector3d>;
 
 constexpr int max_passes = 12;
 // Far below the noise of any scan; a pass squares the error, so the next one would change nothing.
-constexpr double settled_rad = 1e-8, settled_m = 1e-9;
+constexpr double settled_rad = 1e-7, settled_m = 1e-8;
 
 void check_options(const PlaneFitOptions& options) {
   if ((options.method == FitMethod::along_ray || options.area_weights) && !options.scanner_position)
@@ -63,12 +63,12 @@ PlaneFit summarise(Points points, const CentredFrame& frame, CentredPlane plane,
   return out;
 }
 
-}  // namespace
+CentredPlane in_frame(const Plane& plane, const CentredFrame& frame) {
+  return {-plane.signed_distance(frame.origin_m) * plane.normal, plane.normal};
+}
 
-PlaneFit fit_plane(Points points, const PlaneFitOptions& options) {
-  check_options(options);
-  const CentredFrame frame = centred_frame(points, options);
-  CentredPlane plane = principal_plane(points, frame, {});
+PlaneFit fit_from(Points points, const CentredFrame& frame, CentredPlane plane,
+                  const PlaneFitOptions& options) {
   for (int pass = 0; pass < max_passes; ++pass) {
     const CentredPlane before = plane;
     plane = pass_once(points, frame, plane, options);
@@ -77,12 +77,24 @@ PlaneFit fit_plane(Points points, const PlaneFitOptions& options) {
   return summarise(points, frame, plane, options);
 }
 
+}  // namespace
+
+PlaneFit fit_plane(Points points, const PlaneFitOptions& options) {
+  check_options(options);
+  const CentredFrame frame = centred_frame(points, options);
+  return fit_from(points, frame, principal_plane(points, frame, {}), options);
+}
+
+PlaneFit fit_plane(Points points, const Plane& start, const PlaneFitOptions& options) {
+  check_options(options);
+  const CentredFrame frame = centred_frame(points, options);
+  return fit_from(points, frame, in_frame(start, frame), options);
+}
+
 Plane improve_plane(Points points, const Plane& start, const PlaneFitOptions& options) {
   check_options(options);
   const CentredFrame frame = centred_frame(points, options);
-  const double height = start.signed_distance(frame.origin_m);
-  CentredPlane plane{-height * start.normal, start.normal};
-  plane = pass_once(points, frame, plane, options);
+  const CentredPlane plane = pass_once(points, frame, in_frame(start, frame), options);
   return {plane.normal, plane.normal.dot(frame.origin_m + plane.point)};
 }
 

@@ -56,6 +56,10 @@ struct PlaneFit {
 /// position.
 PlaneFit fit_plane(std::span<const Eigen::Vector3d> points, const PlaneFitOptions& options);
 
+/// The same from a plane that is nearly right, which saves passes.
+PlaneFit fit_plane(std::span<const Eigen::Vector3d> points, const Plane& start,
+                   const PlaneFitOptions& options);
+
 /// One pass of the same fit from a plane that is nearly right: what an iteration that selects
 /// points again after each pass needs.
 Plane improve_plane(std::span<const Eigen::Vector3d> points, const Plane& start,
