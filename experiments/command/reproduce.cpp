@@ -1,12 +1,11 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <functional>
-#include <map>
 #include <memory>
 
 #include "alea/core/parallel.hpp"
 #include "experiments/command/command.hpp"
+#include "experiments/command/reproduction_json.hpp"
 #include "experiments/die/reproduce_die.hpp"
 
 namespace alea::command {
@@ -24,9 +23,16 @@ int reproduce(const ReproduceOptions& options) {
   const ProgressCallback progress = make_progress(options.common);
   namespace fs = std::filesystem;
   const std::string folder = (fs::path(options.out) / "die").string();
-  const std::string report =
+  const experiments::die::Reproduction result =
       experiments::die::reproduce_die({folder, options.smoke, options.common.seed, progress});
-  fmt::print("{}\ntables and pictures: {}\n", report, fs::absolute(folder).string());
+  write_json(options.common, reproduction_json(result.tables, options.common.seed, options.smoke));
+  if (options.common.json == "-") return exit_done;
+  for (const experiments::ResultTable& table : result.tables)
+    fmt::print("{}\n", experiments::as_text(table));
+  for (const experiments::ResultTable& table : result.tables)
+    fmt::print("{}", experiments::summary_line(table));
+  if (!result.no_pictures.empty()) fmt::print("{}\n", result.no_pictures);
+  fmt::print("\ntables and pictures: {}\n", fs::absolute(folder).string());
   return exit_done;
 }
 
@@ -42,11 +48,7 @@ void add_reproduce(CLI::App& app, int& exit_code) {
   command->add_option("--out", options->out, "Folder of the results; each paper has its own in it")
       ->required();
   command->add_flag("--smoke", options->smoke, "Few trials: minutes instead of an hour");
-  command->add_option("--threads", options->common.threads, "Threads (0: all cores)")
-      ->check(CLI::NonNegativeNumber);
-  command->add_option("--seed", options->common.seed, "Seed of every random choice")
-      ->capture_default_str();
-  command->add_flag("--quiet", options->common.quiet, "No progress on standard error");
+  add_common_options(*command, options->common);
   command->callback([options, &exit_code] { exit_code = reproduce(*options); });
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <map>
 
 #include "alea/core/error.hpp"
 #include "experiments/die/audit.hpp"
@@ -14,19 +13,8 @@
 #include "experiments/engine/pictures.hpp"
 
 namespace alea::experiments::die {
-namespace {
 
-std::string summary_line(const ResultTable& table) {
-  std::map<Verdict, int> counts;
-  for (const Cell& cell : table.cells) ++counts[cell.verdict];
-  return fmt::format("{:<17} {:3} agree, {:3} differ, {:3} undecidable   {}\n", table.id,
-                     counts[Verdict::agrees], counts[Verdict::differs],
-                     counts[Verdict::undecidable], table.title);
-}
-
-}  // namespace
-
-std::string reproduce_die(const ReproductionOptions& options) {
+Reproduction reproduce_die(const ReproductionOptions& options) {
   std::error_code error;
   std::filesystem::create_directories(options.out, error);
   if (error)
@@ -40,7 +28,9 @@ std::string reproduce_die(const ReproductionOptions& options) {
     runs[dataset] =
         run_twins(published, dataset, trial, options.smoke ? 24 : 300, options.progress);
 
-  std::vector<ResultTable> tables{twin_table1(published, runs)};
+  Reproduction result;
+  std::vector<ResultTable>& tables = result.tables;
+  tables.push_back(twin_table1(published, runs));
   for (const std::string dataset : {"A", "B", "C", "D"})
     tables.push_back(twin_check_plane_table(published, runs, dataset));
   tables.push_back(twin_table6(published, runs));
@@ -50,15 +40,10 @@ std::string reproduce_die(const ReproductionOptions& options) {
   tables.push_back(errata_table(options.seed));
   tables.push_back(frame_rule_table(options.smoke ? 24 : 400, options.seed));
 
-  std::string report, summary;
-  for (const ResultTable& table : tables) {
-    write_table(options.out, table);
-    report += as_text(table) + "\n";
-    summary += summary_line(table);
-  }
+  for (const ResultTable& table : tables) write_table(options.out, table);
   write_figure_data(published, options.seed, options.out);
-  const std::string no_pictures = draw_pictures(options.out);
-  return report + summary + (no_pictures.empty() ? "" : no_pictures + "\n");
+  result.no_pictures = draw_pictures(options.out);
+  return result;
 }
 
 }  // namespace alea::experiments::die

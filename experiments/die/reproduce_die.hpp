@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "alea/core/progress.hpp"
+#include "experiments/engine/result_table.hpp"
 
 namespace alea::experiments::die {
 
@@ -14,9 +16,13 @@ struct ReproductionOptions {
   ProgressCallback progress;
 };
 
-/// The die paper: twins of datasets A to D, Tables 1 to 7, its statements, its errata and the data
-/// of its figures, written as text, CSV and LaTeX below `out`. Returns what a reader should see
-/// first: the verdicts counted and the files. Throws Error(input).
-std::string reproduce_die(const ReproductionOptions& options);
+struct Reproduction {
+  std::vector<ResultTable> tables;
+  std::string no_pictures;  ///< why there are none; empty where they were drawn
+};
+
+/// The die paper: twins of datasets A to D, Tables 1 to 7, its statements, its errata and its
+/// figures, written as text, CSV, LaTeX, PNG and PDF below `out`. Throws Error(input).
+Reproduction reproduce_die(const ReproductionOptions& options);
 
 }  // namespace alea::experiments::die

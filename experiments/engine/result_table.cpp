@@ -84,6 +84,16 @@ std::string as_text(const ResultTable& table) {
   return text;
 }
 
+std::string summary_line(const ResultTable& table) {
+  const auto count = [&](Verdict verdict) {
+    return std::count_if(table.cells.begin(), table.cells.end(),
+                         [&](const Cell& cell) { return cell.verdict == verdict; });
+  };
+  return fmt::format("{:<17} {:3} agree, {:3} differ, {:3} undecidable   {}\n", table.id,
+                     count(Verdict::agrees), count(Verdict::differs), count(Verdict::undecidable),
+                     table.title);
+}
+
 std::string as_csv(const ResultTable& table) {
   std::string text = "row,column,unit,printed,ours_median,ours_low,ours_high,verdict,note\n";
   for (const Cell& cell : table.cells) {

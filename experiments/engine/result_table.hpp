@@ -36,6 +36,8 @@ Cell own_cell(const std::string& row, const std::string& column, const std::stri
               std::vector<double> values);
 
 std::string as_text(const ResultTable& table);
+/// One line: how many cells agree, differ and cannot be decided.
+std::string summary_line(const ResultTable& table);
 std::string as_csv(const ResultTable& table);
 /// A LaTeX tabular of its own, needing no package.
 std::string as_latex(const ResultTable& table);

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <numeric>
 
+#include "experiments/command/reproduction_json.hpp"
 #include "tests/support/json_schema.hpp"
 #include "tests/support/program.hpp"
 
@@ -89,6 +90,18 @@ TEST_F(Outputs, ARefusedRegistrationConformsAndHasNoTransform) {
   EXPECT_TRUE(result["master_from_slave"].is_null());
   EXPECT_FALSE(result["refusal"].is_null());
   expect_conforming(result, "register.v1");
+}
+
+TEST(ReproductionOutput, Conforms) {
+  using namespace alea::experiments;
+  ResultTable table{"table9", "An example", "", {}};
+  table.cells.push_back({"A-1", "union", "mm", "1.9", Interval{1, 2, 3}, Verdict::differs, ""});
+  table.cells.push_back({"A-2", "union", "mm", "", std::nullopt, Verdict::ours, "refused"});
+  table.cells.push_back({"A-3", "points", "", "76", Interval{75, 76, 77}, Verdict::input, ""});
+  const json output = alea::command::reproduction_json({table}, 1, true);
+  expect_conforming(output, "reproduce.v1");
+  EXPECT_EQ(output["tables"][0]["cells"][0]["verdict"], "differs");
+  EXPECT_TRUE(output["tables"][0]["cells"][1]["verdict"].is_null());
 }
 
 }  // namespace
