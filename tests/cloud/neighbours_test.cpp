@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "alea/core/seed.hpp"
 
@@ -42,6 +43,34 @@ TEST(NeighbourIndex, AgreesWithBruteForce) {
       return n.squared_distance_m2 < 0.25;
     });
     EXPECT_EQ(static_cast<std::ptrdiff_t>(within.size()), count);
+  }
+}
+
+TEST(NeighbourIndex, FindsTheNearestWithinADistance) {
+  const auto points = random_points(2000);
+  const NeighbourIndex index(points);
+  for (const Eigen::Vector3d& q : random_points(100)) {
+    const Eigen::Vector3d p = 1.1 * q;
+    const Neighbour expected = brute_force(points, p).front();
+    const auto found = index.nearest_one(p);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->index, expected.index);
+    const double distance_m = std::sqrt(expected.squared_distance_m2);
+    EXPECT_TRUE(index.nearest_one(p, distance_m * 1.001));
+    EXPECT_FALSE(index.nearest_one(p, distance_m * 0.999));
+  }
+}
+
+TEST(NeighbourIndex, OrdersEqualDistancesByPlaceInSpaceNotInTheCloud) {
+  std::vector<Eigen::Vector3d> points;
+  for (int x = -3; x <= 3; ++x)
+    for (int y = -3; y <= 3; ++y)
+      for (int z = -3; z <= 3; ++z) points.emplace_back(x, y, z);
+  const std::vector<Eigen::Vector3d> backwards(points.rbegin(), points.rend());
+  const NeighbourIndex index(points), other(backwards);
+  for (const Eigen::Vector3d& p : points) {
+    const auto a = index.nearest(p, 10), b = other.nearest(p, 10);
+    for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(points[a[i].index], backwards[b[i].index]);
   }
 }
 

@@ -1,73 +1,142 @@
 #include "alea/cloud/neighbours.hpp"
 
 #include <algorithm>
-#include <nanoflann.hpp>
 
 namespace alea {
 namespace {
 
-struct Adaptor {
-  std::span<const Eigen::Vector3d> points;
-  std::size_t kdtree_get_point_count() const { return points.size(); }
-  double kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    return points[i][static_cast<Eigen::Index>(axis)];
+constexpr std::size_t leaf_size = 12;
+
+// Among the collected neighbours `index` is the place in the order, so that ties do not depend on
+// the order of the cloud.
+bool nearer(const Neighbour& a, const Neighbour& b) {
+  return a.squared_distance_m2 != b.squared_distance_m2
+             ? a.squared_distance_m2 < b.squared_distance_m2
+             : a.index < b.index;
+}
+
+/// The k nearest so far, in order, in memory of the caller's.
+struct NearestK {
+  std::span<Neighbour> out;
+  std::size_t count = 0;
+  double limit() const {
+    return count < out.size() ? std::numeric_limits<double>::infinity()
+                              : out.back().squared_distance_m2;
   }
-  template <typename Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
+  void add(const Neighbour& found) {
+    if (count == out.size() && !nearer(found, out.back())) return;
+    std::size_t i = count < out.size() ? count++ : count - 1;
+    for (; i > 0 && nearer(found, out[i - 1]); --i) out[i] = out[i - 1];
+    out[i] = found;
   }
 };
 
-using KdTree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Adaptor>,
-                                                   Adaptor, 3, std::uint32_t>;
+struct NearestOne {
+  Neighbour best;
+  double limit() const { return best.squared_distance_m2; }
+  void add(const Neighbour& found) {
+    if (nearer(found, best)) best = found;
+  }
+};
 
-void sort_neighbours(std::vector<Neighbour>& found) {
-  std::sort(found.begin(), found.end(), [](const Neighbour& a, const Neighbour& b) {
-    return a.squared_distance_m2 != b.squared_distance_m2
-               ? a.squared_distance_m2 < b.squared_distance_m2
-               : a.index < b.index;
-  });
-}
+struct Within {
+  double squared_distance_m2;
+  std::vector<Neighbour> found;
+  double limit() const { return squared_distance_m2; }
+  void add(const Neighbour& neighbour) { found.push_back(neighbour); }
+};
+
+/// Descends to the leaf of the point, then to every node that may hold a nearer one. `offsets_m`:
+/// from the point to the node's box along each axis; `squared` is their sum of squares (Arya and
+/// Mount 1993, Algorithms for fast vector quantization, DCC '93).
+template <typename Collector>
+class Search {
+ public:
+  Search(const KdOrder& order, const Eigen::Vector3d& point, Collector& collector)
+      : order_(order), point_(point), collector_(collector) {}
+
+  void run() {
+    if (!order_.points.empty()) visit(0, 0, 0.0);
+  }
+
+ private:
+  void visit(int level, std::size_t node, double squared) {
+    if (level == order_.levels) {
+      scan(order_.first(level, node), order_.first(level, node + 1));
+      return;
+    }
+    const KdSplit& split = order_.splits[(std::size_t{1} << level) - 1 + node];
+    const double value = point_[split.axis];
+    const double above_low = value - split.low_m, below_high = split.high_m - value;
+    const bool left_first = above_low < below_high;
+    visit(level + 1, 2 * node + (left_first ? 0 : 1), squared);
+    const double offset = left_first ? below_high : above_low;
+    const double old = offsets_m_[split.axis];
+    // Inside the gap between the halves the far half may be nearer than the node's box.
+    const double farther = offset > 0 ? squared - old * old + offset * offset : squared;
+    if (!(farther * (1 - 1e-14) <= collector_.limit())) return;
+    if (offset > 0) offsets_m_[split.axis] = offset;
+    visit(level + 1, 2 * node + (left_first ? 1 : 0), farther);
+    offsets_m_[split.axis] = old;
+  }
+
+  void scan(std::size_t first, std::size_t last) {
+    for (std::size_t place = first; place < last; ++place) {
+      const double squared = (order_.points[place].position - point_).squaredNorm();
+      if (squared <= collector_.limit())
+        collector_.add({static_cast<std::uint32_t>(place), squared});
+    }
+  }
+
+  const KdOrder& order_;
+  const Eigen::Vector3d& point_;
+  Collector& collector_;
+  Eigen::Vector3d offsets_m_ = Eigen::Vector3d::Zero();
+};
 
 }  // namespace
 
-struct NeighbourIndex::Tree {
-  explicit Tree(std::span<const Eigen::Vector3d> points)
-      : adaptor{points}, index(3, adaptor, nanoflann::KDTreeSingleIndexAdaptorParams(16)) {
-    index.buildIndex();
-  }
-  Adaptor adaptor;
-  KdTree index;
-};
-
 NeighbourIndex::NeighbourIndex(std::span<const Eigen::Vector3d> points)
-    : tree_(std::make_unique<Tree>(points)) {}
-NeighbourIndex::~NeighbourIndex() = default;
-NeighbourIndex::NeighbourIndex(NeighbourIndex&&) noexcept = default;
-NeighbourIndex& NeighbourIndex::operator=(NeighbourIndex&&) noexcept = default;
+    : order_(kd_order(points, leaf_size)) {}
+
+std::size_t NeighbourIndex::nearest_places(const Eigen::Vector3d& point,
+                                           std::span<Neighbour> out) const {
+  if (out.empty()) return 0;
+  NearestK collector{out};
+  Search(order_, point, collector).run();
+  return collector.count;
+}
+
+std::size_t NeighbourIndex::nearest(const Eigen::Vector3d& point, std::span<Neighbour> out) const {
+  const std::size_t count = nearest_places(point, out);
+  for (Neighbour& neighbour : out.first(count))
+    neighbour.index = order_.points[neighbour.index].index;
+  return count;
+}
 
 std::vector<Neighbour> NeighbourIndex::nearest(const Eigen::Vector3d& point, std::size_t k) const {
-  std::vector<std::uint32_t> indices(k);
-  std::vector<double> distances(k);
-  const std::size_t count =
-      tree_->index.knnSearch(point.data(), k, indices.data(), distances.data());
-  std::vector<Neighbour> found(count);
-  for (std::size_t i = 0; i < count; ++i) found[i] = {indices[i], distances[i]};
-  sort_neighbours(found);
+  std::vector<Neighbour> found(std::min(k, order_.points.size()));
+  found.resize(nearest(point, std::span<Neighbour>(found)));
   return found;
+}
+
+std::optional<Neighbour> NeighbourIndex::nearest_one(const Eigen::Vector3d& point,
+                                                     double distance_m) const {
+  constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  NearestOne collector{{none, distance_m * distance_m}};
+  Search(order_, point, collector).run();
+  if (collector.best.index == none) return std::nullopt;
+  return Neighbour{order_.points[collector.best.index].index, collector.best.squared_distance_m2};
 }
 
 std::vector<Neighbour> NeighbourIndex::within(const Eigen::Vector3d& point,
                                               double distance_m) const {
-  std::vector<std::pair<std::uint32_t, double>> matches;
-  nanoflann::SearchParams unsorted;
-  unsorted.sorted = false;
-  tree_->index.radiusSearch(point.data(), distance_m * distance_m, matches, unsorted);
-  std::vector<Neighbour> found;
-  found.reserve(matches.size());
-  for (const auto& [index, distance] : matches) found.push_back({index, distance});
-  sort_neighbours(found);
-  return found;
+  Within collector{distance_m * distance_m, {}};
+  Search(order_, point, collector).run();
+  std::sort(collector.found.begin(), collector.found.end(), nearer);
+  for (Neighbour& neighbour : collector.found)
+    neighbour.index = order_.points[neighbour.index].index;
+  return std::move(collector.found);
 }
 
 }  // namespace alea
