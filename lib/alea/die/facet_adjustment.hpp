@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "alea/core/rigid_transform.hpp"
@@ -42,6 +43,10 @@ struct UncertainShape {
 /// All facets of the two corners must be known.
 FacetAdjustment adjust_to_shape(const ObservedDie& master, const ObservedDie& slave,
                                 const UncertainShape& shape);
+
+/// scan_from_die of a shape's planes ([pips - 1], die frame) by the normals and the corner of the
+/// three facets that a scan sees; exact where shape and scan are.
+RigidTransform place_shape(const ObservedDie& die, const std::array<Plane, 6>& shape);
 
 /// The middle of the die (m, scan frame), from the facets' centroids: near enough to choose an
 /// origin.

@@ -39,22 +39,10 @@ PlaneFit changed(const PlaneFit& nominal, const Eigen::Vector3d& abc) {
   return fit;
 }
 
-/// From the three normals and the corner; exact without noise.
-RigidTransform start(const ObservedDie& die, const std::array<PlaneFit, 6>& shape) {
-  std::array<Eigen::Vector3d, 3> seen, known;
-  std::array<Plane, 3> planes;
-  for (int k = 0; k < 3; ++k) {
-    planes[k] = shape[die.facets[k].pips - 1].plane;
-    seen[k] = die.facets[k].fit.plane.normal;
-    known[k] = planes[k].normal;
-  }
-  const auto seen_corner = assemble_corner(planes_of(die)), known_corner = assemble_corner(planes);
-  if (!seen_corner || !known_corner)
-    throw usage_error("closed form: three facets have no common corner");
-  RigidTransform scan_from_die = horn(seen, known);
-  scan_from_die.translation =
-      seen_corner->corner_m - scan_from_die.rotation * known_corner->corner_m;
-  return scan_from_die;
+std::array<Plane, 6> planes_of(const std::array<PlaneFit, 6>& fits) {
+  std::array<Plane, 6> planes;
+  for (int f = 0; f < 6; ++f) planes[f] = fits[f].plane;
+  return planes;
 }
 
 /// The state of the adjustment: both poses and the shape's departure from its nominal planes.
@@ -106,6 +94,23 @@ Matrix6d adjoint(const RigidTransform& t) {
 
 }  // namespace
 
+RigidTransform place_shape(const ObservedDie& die, const std::array<Plane, 6>& shape) {
+  std::array<Eigen::Vector3d, 3> seen, known;
+  std::array<Plane, 3> planes;
+  for (int k = 0; k < 3; ++k) {
+    planes[k] = shape[die.facets[k].pips - 1];
+    seen[k] = die.facets[k].fit.plane.normal;
+    known[k] = planes[k].normal;
+  }
+  const auto seen_corner = assemble_corner(planes_of(die)), known_corner = assemble_corner(planes);
+  if (!seen_corner || !known_corner)
+    throw usage_error("closed form: three facets have no common corner");
+  RigidTransform scan_from_die = horn(seen, known);
+  scan_from_die.translation =
+      seen_corner->corner_m - scan_from_die.rotation * known_corner->corner_m;
+  return scan_from_die;
+}
+
 FacetAdjustment adjust_to_shape(const ObservedDie& master, const ObservedDie& slave,
                                 const UncertainShape& shape) {
   const Eigen::Vector3d sd(shape.tilt_sd_rad, shape.tilt_sd_rad, shape.offset_sd_m);
@@ -113,7 +118,8 @@ FacetAdjustment adjust_to_shape(const ObservedDie& master, const ObservedDie& sl
                         nominal_fits(shape.shape, master, slave),
                         sd.cwiseAbs2().replicate<6, 1>()};
   State state;
-  state.scan_from_die = {start(master, problem.nominal), start(slave, problem.nominal)};
+  const std::array<Plane, 6> planes = planes_of(problem.nominal);
+  state.scan_from_die = {place_shape(master, planes), place_shape(slave, planes)};
   LeastSquares solution;
   for (int step = 0; step < steps; ++step) {
     solution = solve_misclosures(misclosures_at(problem, state));
