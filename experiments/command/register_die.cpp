@@ -4,6 +4,7 @@
 
 #include <array>
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <memory>
@@ -13,6 +14,8 @@
 #include "alea/core/error.hpp"
 #include "alea/core/parallel.hpp"
 #include "alea/io/cloud_file.hpp"
+#include "alea/pipeline/die_stages.hpp"
+#include "alea/report/die_page.hpp"
 #include "experiments/command/die_file.hpp"
 #include "experiments/command/noise_file.hpp"
 #include "experiments/command/reading.hpp"
@@ -36,6 +39,7 @@ struct DieArguments {
   double tilt_prior_deg = 0;
   std::string near, master_origin, slave_origin;
   std::string check_planes_file, noise_file;
+  std::string report_folder;
   ReadingOptions reading;
 };
 
@@ -129,6 +133,12 @@ Cloud read_scan(const std::string& path, const ReadOptions& read,
   return cloud;
 }
 
+/// The folder itself for one slave; one folder in it for each of several.
+std::filesystem::path report_folder(const DieArguments& arguments, std::size_t scan) {
+  const std::filesystem::path folder = arguments.report_folder;
+  return arguments.scans.size() == 2 ? folder : folder / fmt::format("slave_{}", scan);
+}
+
 int run(const DieArguments& arguments) {
   const DieRegistrationOptions options = registration_options(arguments);
   const auto master_origin = point("--master-origin", arguments.master_origin);
@@ -145,9 +155,13 @@ int run(const DieArguments& arguments) {
 
   std::vector<Registration> results;
   for (std::size_t i = 1; i < clouds.size(); ++i) {
-    Registration result = register_die(clouds[0], clouds[i], options);
+    StagedDieRegistration staged = register_die_in_stages(clouds[0], clouds[i], options);
+    Registration& result = staged.registration;
     result.timing_s.insert(result.timing_s.begin(), {"read", read_s});
     result.timing_s.back().second += read_s;
+    if (!arguments.report_folder.empty())
+      write_page(report_folder(arguments, i),
+                 die_page(staged, arguments.scans[0], arguments.scans[i]));
     results.push_back(std::move(result));
   }
   return finish_registrations(arguments.common, results);
@@ -199,6 +213,9 @@ void add_register_die(CLI::App& parent, int& exit_code) {
                   "File of centroids (x y z, master frame, m) of the check "
                   "planes; the other common planes calibrate");
   app->add_option("--noise", a.noise_file, "Noise model (JSON) behind the covariance");
+  app->add_option("--report", a.report_folder,
+                  "Folder for a page with pictures of every stage (index.html, PNG), also of a "
+                  "refusal; with several slaves one folder in it for each");
   add_reading_options(*app, a.reading);
   add_common_options(*app, a.common);
   app->callback([arguments, &exit_code] { exit_code = run(*arguments); });

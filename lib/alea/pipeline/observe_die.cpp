@@ -13,7 +13,6 @@
 namespace alea {
 namespace {
 
-constexpr double pip_radius_share = 0.1;  // of the edge; a pip is masked out of the fit
 constexpr double plausible_range_m =
     1000;  // an unnamed scanner stands at the origin only if that near
 
@@ -91,7 +90,7 @@ FacetFits without_pips(const Cloud& cloud, const std::vector<PlaneRegion>& plane
     const double u_m = candidate.facets.edges_m[(k + 1) % 3],
                  v_m = candidate.facets.edges_m[(k + 2) % 3];
     options.masks[k] =
-        pip_discs(reading.pips[k], {u_m, v_m}, pip_radius_share * std::min(u_m, v_m));
+        pip_discs(reading.pips[k], {u_m, v_m}, pip_mask_radius_share * std::min(u_m, v_m));
     regions[k] = planes[candidate.regions[k]];
   }
   options.edge_radius_m = candidate.facets.edge_radius_m;
@@ -118,10 +117,10 @@ DieSighting sighting(const DieCandidate& candidate, const FacetFits& facets,
 }
 
 /// Reads every candidate; keeps those whose pips can be read, else the best candidate's refusal.
-void read_candidates(const Cloud& cloud, const std::vector<DieCandidate>& candidates,
-                     const FacetFitOptions& fit, const DieRegistrationOptions& options,
-                     ScanSighting& scan) {
-  for (const DieCandidate& candidate : candidates) {
+void read_candidates(const Cloud& cloud, const FacetFitOptions& fit,
+                     const DieRegistrationOptions& options, ScanSighting& scan) {
+  for (std::size_t i = 0; i < scan.candidates.size(); ++i) {
+    const DieCandidate& candidate = scan.candidates[i];
     const auto& fits = candidate.facets.fits;
     const auto corner = assemble_corner({fits[0].plane, fits[1].plane, fits[2].plane});
     if (!corner) continue;
@@ -134,6 +133,7 @@ void read_candidates(const Cloud& cloud, const std::vector<DieCandidate>& candid
                                  ? candidate.facets
                                  : without_pips(cloud, scan.planes, candidate, *reading, fit);
     scan.dice.push_back(sighting(candidate, facets, *reading));
+    scan.dice.back().candidate = i;
   }
   if (!scan.dice.empty()) scan.refusal.reset();
 }
@@ -142,13 +142,14 @@ void find_and_read(const Cloud& cloud, const DieFinderOptions& finder,
                    const DieRegistrationOptions& options, ScanSighting& scan) {
   Stopwatch watch;
   scan.refusal.reset();
-  const Result<std::vector<DieCandidate>> candidates = find_dice(cloud, scan.planes, finder);
+  Result<std::vector<DieCandidate>> candidates = find_dice(cloud, scan.planes, finder);
   scan.facets_s += watch.lap_s();
   if (!candidates) {
     scan.refusal = candidates.refusal();
     return;
   }
-  read_candidates(cloud, *candidates, finder.facets, options, scan);
+  scan.candidates = *std::move(candidates);
+  read_candidates(cloud, finder.facets, options, scan);
   scan.pips_s += watch.lap_s();
 }
 

@@ -11,6 +11,9 @@
 
 namespace alea {
 
+/// Radius about a pip that the fits leave out, as a share of the facet's shorter edge.
+inline constexpr double pip_mask_radius_share = 0.1;
+
 /// One die as one scan shows it: planes -> facets -> pips.
 struct DieSighting {
   ObservedDie die;
@@ -18,14 +21,16 @@ struct DieSighting {
       edges_m{};  ///< from the facets' extents; [k] lies between the other two of die.facets
   std::array<double, 3> edges_sd_m{};    ///< radius and footprint allowed for
   std::array<std::size_t, 3> regions{};  ///< its plane regions
-  PipReading reading;
+  std::size_t candidate = 0;             ///< where it stands among the scan's candidates
+  PipReading reading;                    ///< of the facets in the order of the candidate
 };
 
 /// Everything that one scan has to say before it meets the other one.
 struct ScanSighting {
   std::vector<PlaneRegion> planes;
-  std::vector<DieSighting> dice;   ///< with readable pips, best first
-  std::optional<Refusal> refusal;  ///< where there are none
+  std::vector<DieCandidate> candidates;  ///< of the right shape and size, best first
+  std::vector<DieSighting> dice;         ///< with readable pips, best first
+  std::optional<Refusal> refusal;        ///< where there are none
   bool scanner_position_known = true;
   double planes_s = 0, facets_s = 0, pips_s = 0;  ///< time taken
 };

@@ -8,6 +8,7 @@
 #include "alea/pipeline/die_calibration.hpp"
 #include "alea/pipeline/die_pair.hpp"
 #include "alea/pipeline/die_report.hpp"
+#include "alea/pipeline/die_stages.hpp"
 #include "alea/pipeline/observe_die.hpp"
 #include "alea/pipeline/stopwatch.hpp"
 
@@ -47,32 +48,34 @@ void add_sighting_notes(const ScanSighting& master, const ScanSighting& slave, R
 }
 
 /// From the die that both scans mean to the transform and its check; empty, or why it is refused.
-std::optional<Refusal> register_pair(const Cloud& master, const Cloud& slave,
-                                     const ScanSighting& of_master, const ScanSighting& of_slave,
-                                     const DieRegistrationOptions& options, Registration& out) {
+std::optional<Refusal> register_pair(const DieRegistrationOptions& options, DieStages& stages,
+                                     Registration& out) {
   Stopwatch watch;
-  const Result<DiePair> pair = choose_die_pair(master, of_master, slave, of_slave, options);
-  if (!pair) return pair.refusal();
+  const Cloud &master = stages.master, &slave = stages.slave;
+  Result<DiePair> chosen =
+      choose_die_pair(master, stages.of_master, slave, stages.of_slave, options);
+  if (!chosen) return chosen.refusal();
+  const DiePair& pair = stages.pair.emplace(*std::move(chosen));
   out.timing_s.emplace_back("transform", watch.lap_s());
 
-  const auto planes = find_common_planes(master, scene_planes(of_master.planes, pair->master),
-                                         slave, scene_planes(of_slave.planes, pair->slave),
-                                         pair->transform.master_from_slave);
+  const std::vector<CommonPlane>& planes = stages.planes = find_common_planes(
+      master, scene_planes(stages.of_master.planes, pair.master), slave,
+      scene_planes(stages.of_slave.planes, pair.slave), pair.transform.master_from_slave);
   const std::vector<CheckPlaneRole> roles = plane_roles(planes, options);
   const Result<DieTransform> transform =
-      options.calibrate ? calibrate_die(master, slave, *pair, planes, roles, options)
-                        : Result(pair->transform);
+      options.calibrate ? calibrate_die(master, slave, pair, planes, roles, options)
+                        : Result(pair.transform);
   if (!transform) return transform.refusal();
   out.timing_s.emplace_back("calibration", watch.lap_s());
 
   out.master_from_slave = transform->master_from_slave;
   out.covariance = transform->covariance;
   const bool calibrated = options.calibrate && transform->lengths_m.size() > 0;
-  out.die = die_report(*pair, *transform, calibrated, options);
-  out.ambiguity = {std::max(pair->master.reading.alternatives, pair->slave.reading.alternatives),
-                   std::min(pair->master.reading.margin, pair->slave.reading.margin)};
+  out.die = die_report(pair, *transform, calibrated, options);
+  out.ambiguity = {std::max(pair.master.reading.alternatives, pair.slave.reading.alternatives),
+                   std::min(pair.master.reading.margin, pair.slave.reading.margin)};
   out.warnings.insert(out.warnings.end(), transform->warnings.begin(), transform->warnings.end());
-  for (std::string& warning : size_warnings(*pair, options))
+  for (std::string& warning : size_warnings(pair, options))
     out.warnings.push_back(std::move(warning));
   for (std::size_t i = 0; i < planes.size(); ++i) {
     out.check_planes.push_back(
@@ -97,29 +100,34 @@ const char* to_string(DieMethod method) {
   return "unknown";
 }
 
-Registration register_die(const Cloud& master_scan, const Cloud& slave_scan,
-                          const DieRegistrationOptions& options) {
+StagedDieRegistration register_die_in_stages(const Cloud& master_scan, const Cloud& slave_scan,
+                                             const DieRegistrationOptions& options) {
   require_intensity(master_scan, "master");
   require_intensity(slave_scan, "slave");
   Stopwatch total;
-  Registration out;
+  StagedDieRegistration staged;
+  Registration& out = staged.registration;
+  DieStages& stages = staged.stages;
   out.method = to_string(options.method);
-  Cloud master, slave;
-  ScanSighting of_master, of_slave;
   parallel_pair(
       [&] {
-        master = canonical_order(master_scan);
-        of_master = observe_die(master, options, options.near_m);
+        stages.master = canonical_order(master_scan);
+        stages.of_master = observe_die(stages.master, options, options.near_m);
       },
       [&] {
-        slave = canonical_order(slave_scan);
-        of_slave = observe_die(slave, options, std::nullopt);
+        stages.slave = canonical_order(slave_scan);
+        stages.of_slave = observe_die(stages.slave, options, std::nullopt);
       });
-  add_sighting_notes(of_master, of_slave, out);
-  out.refusal = sighting_refusal(of_master, of_slave);
-  if (!out.refusal) out.refusal = register_pair(master, slave, of_master, of_slave, options, out);
+  add_sighting_notes(stages.of_master, stages.of_slave, out);
+  out.refusal = sighting_refusal(stages.of_master, stages.of_slave);
+  if (!out.refusal) out.refusal = register_pair(options, stages, out);
   out.timing_s.emplace_back("total", total.lap_s());
-  return out;
+  return staged;
+}
+
+Registration register_die(const Cloud& master, const Cloud& slave,
+                          const DieRegistrationOptions& options) {
+  return register_die_in_stages(master, slave, options).registration;
 }
 
 }  // namespace alea

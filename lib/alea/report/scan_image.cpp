@@ -49,7 +49,8 @@ double pixel_step(const std::vector<Eigen::Vector2d>& places, const Eigen::Vecto
   return std::sqrt(share * extent.prod() * points_per_pixel / static_cast<double>(places.size()));
 }
 
-std::function<Eigen::Vector3d(const Eigen::Vector3d&)> projection(const Cloud& cloud) {
+std::function<Eigen::Vector3d(const Eigen::Vector3d&)> projection(
+    const Cloud& cloud, const std::optional<Eigen::Vector3d>& middle_m) {
   if (!cloud.scanner_position) {
     const ParallelView view = view_from({-0.6, -1, 0.9});
     return [view](const Eigen::Vector3d& p) {
@@ -58,7 +59,10 @@ std::function<Eigen::Vector3d(const Eigen::Vector3d&)> projection(const Cloud& c
     };
   }
   const Eigen::Vector3d scanner = *cloud.scanner_position;
-  const double cut_deg = widest_gap_deg(cloud, scanner);
+  const double cut_deg =
+      middle_m
+          ? std::atan2(middle_m->y() - scanner.y(), middle_m->x() - scanner.x()) * deg_per_rad - 180
+          : widest_gap_deg(cloud, scanner);
   return [scanner, cut_deg](const Eigen::Vector3d& p) {
     const Eigen::Vector3d d = p - scanner;
     const double azimuth = std::atan2(d.y(), d.x()) * deg_per_rad;
@@ -92,7 +96,7 @@ void close_holes(ScanImage& image) {
 
 ScanImage scan_image(const Cloud& cloud, const ScanImageOptions& options) {
   ScanImage image;
-  image.place = projection(cloud);
+  image.place = projection(cloud, options.about_m ? options.about_m : options.middle_m);
   image.x_name = cloud.scanner_position ? "minus azimuth (deg)" : "right (m)";
   image.y_name = cloud.scanner_position ? "elevation (deg)" : "up (m)";
   std::vector<std::int64_t> shown;

@@ -18,11 +18,13 @@ struct ScanImageOptions {
   /// Only the surroundings of a point of the scan's frame (m), and their radius (m).
   std::optional<Eigen::Vector3d> about_m;
   double radius_m = 1;
+  std::optional<Eigen::Vector3d> middle_m;  ///< in the middle of a picture all round
 };
 
 /// A scan as its scanner saw it: azimuth to the left like the compass turns it backwards (x right =
-/// clockwise), elevation upwards, in degrees; the azimuth begins in the scan's widest gap. Where
-/// the scanner's position is unknown the scan from obliquely above, in metres.
+/// clockwise), elevation upwards, in degrees; the picture is cut behind the point asked for, else
+/// in the scan's widest gap. Where the scanner's position is unknown the scan from obliquely above,
+/// in metres.
 struct ScanImage {
   int width = 0;
   int height = 0;
