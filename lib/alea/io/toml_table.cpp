@@ -167,6 +167,19 @@ Eigen::Vector3d TomlTable::vector3(const std::string& key) const {
   return vector3(key, Eigen::Vector3d::Zero());
 }
 
+std::vector<Eigen::Vector3d> TomlTable::vectors(const std::string& key) const {
+  std::vector<Eigen::Vector3d> out;
+  const toml::node* node = state_->find(key);
+  if (node == nullptr) return out;
+  if (!node->is_array()) fail(key, "a list of three finite numbers each [[x, y, z], ...]");
+  for (const toml::node& element : *node->as_array()) {
+    const auto numbers = numbers_of(element, 3);
+    if (!numbers) fail(key, "a list of three finite numbers each [[x, y, z], ...]");
+    out.emplace_back((*numbers)[0], (*numbers)[1], (*numbers)[2]);
+  }
+  return out;
+}
+
 Eigen::Vector2d TomlTable::interval(const std::string& key, const Eigen::Vector2d& missing) const {
   const toml::node* node = state_->find(key);
   if (node == nullptr) return missing;

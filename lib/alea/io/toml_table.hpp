@@ -39,6 +39,8 @@ class TomlTable {
   Eigen::Vector3d vector3(const std::string& key, const Eigen::Vector3d& missing) const;
   /// The same for a key that must be there.
   Eigen::Vector3d vector3(const std::string& key) const;
+  /// Points [[x, y, z], ...]; empty where missing.
+  std::vector<Eigen::Vector3d> vectors(const std::string& key) const;
   /// Two numbers, the first not above the second.
   Eigen::Vector2d interval(const std::string& key, const Eigen::Vector2d& missing) const;
 

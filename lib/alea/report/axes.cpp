@@ -9,6 +9,7 @@ namespace alea {
 namespace {
 
 constexpr double tick_px = 4, label_px = 9, title_px = 12;
+constexpr double letter_px = 7.2;  // mean width of a letter of a label
 
 std::string tick_label(double value, double step) {
   const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 9);
@@ -133,7 +134,7 @@ void Axes::text(const Eigen::Vector2d& place, const std::string& words, const Te
 void Axes::legend(const std::vector<std::pair<std::string, Rgb>>& entries) {
   std::size_t longest = 0;
   for (const auto& [name, colour] : entries) longest = std::max(longest, name.size());
-  const double width = 26 + 7.2 * static_cast<double>(longest);
+  const double width = 26 + letter_px * static_cast<double>(longest);
   const double height = 6 + 17 * static_cast<double>(entries.size());
   const Eigen::Vector2d corner(lower_right_.x() - width - 4, upper_left_.y() + 4);
   canvas_->box(corner, corner + Eigen::Vector2d(width, height), colours::white);
@@ -141,6 +142,16 @@ void Axes::legend(const std::vector<std::pair<std::string, Rgb>>& entries) {
     const Eigen::Vector2d spot = corner + Eigen::Vector2d(11, 12 + 17 * static_cast<double>(i));
     canvas_->disc(spot, 4, entries[i].second);
     canvas_->text(spot + Eigen::Vector2d(10, 0), entries[i].first, {.height_px = label_px});
+  }
+}
+
+void draw_legend_row(Canvas& canvas, const Eigen::Vector2d& at,
+                     const std::vector<std::pair<std::string, Rgb>>& entries) {
+  Eigen::Vector2d spot = at;
+  for (const auto& [name, colour] : entries) {
+    canvas.disc(spot, 4, colour);
+    canvas.text(spot + Eigen::Vector2d(10, 0), name, {.height_px = label_px});
+    spot.x() += 40 + letter_px * static_cast<double>(name.size());
   }
 }
 

@@ -64,6 +64,10 @@ class Axes {
   Eigen::Vector2d scale_;                     // pixels per unit
 };
 
+/// Names with a spot of their colour, in a row that begins at a pixel.
+void draw_legend_row(Canvas& canvas, const Eigen::Vector2d& at,
+                     const std::vector<std::pair<std::string, Rgb>>& entries);
+
 /// Round numbers in [low, high], about `count` of them; one step is 1, 2 or 5 times a power of ten.
 std::vector<double> round_ticks(double low, double high, int count);
 

@@ -59,10 +59,6 @@ void draw_die_in_scan(Canvas& canvas, const PanelArea& area, const Cloud& cloud,
     axes.line(image.place(corners[u]).head<2>(), image.place(corners[u | v]).head<2>(),
               colours::masked, 1);
   }
-  axes.legend({{"used by the fit", colour_of(FacetPointFate::used)},
-               {"border, trimmed", colour_of(FacetPointFate::border)},
-               {"pip, masked", colour_of(FacetPointFate::pip_mask)},
-               {"off the plane", colour_of(FacetPointFate::off_plane)}});
 }
 
 void draw_facet(Canvas& canvas, const PanelArea& area, const DrawnDie& die, int k,
@@ -175,11 +171,20 @@ void draw_decision(Canvas& canvas, const PanelArea& area, const DrawnDie& die, i
 }  // namespace
 
 Picture facets_picture(const Cloud& cloud, const DrawnDie& die, const std::string& scan_name) {
-  Canvas canvas(1560, 430);
+  Canvas canvas(1560, 460);
   const auto views = facet_views(cloud, die);
-  draw_die_in_scan(canvas, grid_panel(canvas, 4, 1, 0), cloud, die, views,
-                   scan_name + ": the die in the scan");
-  for (int k = 0; k < 3; ++k) draw_facet(canvas, grid_panel(canvas, 4, 1, k + 1), die, k, views[k]);
+  const auto panel = [&](int number) {
+    PanelArea area = grid_panel(canvas, 4, 1, number);
+    area.height -= 30;
+    return area;
+  };
+  draw_die_in_scan(canvas, panel(0), cloud, die, views, scan_name + ": the die in the scan");
+  for (int k = 0; k < 3; ++k) draw_facet(canvas, panel(k + 1), die, k, views[k]);
+  draw_legend_row(canvas, {480, 446},
+                  {{"used by the fit", colour_of(FacetPointFate::used)},
+                   {"border, trimmed", colour_of(FacetPointFate::border)},
+                   {"pip, masked", colour_of(FacetPointFate::pip_mask)},
+                   {"off the plane", colour_of(FacetPointFate::off_plane)}});
   return canvas.picture();
 }
 

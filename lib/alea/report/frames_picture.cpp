@@ -61,7 +61,7 @@ void draw_axes_of(Axes& axes, const ParallelView& view, const Seen& seen) {
   };
   draw_frame_arrows(axes, view, seen.shown_from_scan * seen.frame->corner_m,
                     seen.shown_from_scan.rotation * seen.frame->axes,
-                    0.42 * seen.die.longest_edge_m(),
+                    0.3 * seen.die.longest_edge_m(),
                     {"X " + edge(label.up, label.x_side), "Y " + edge(label.up, label.y_side),
                      "Z " + edge(label.x_side, label.y_side)},
                     3);

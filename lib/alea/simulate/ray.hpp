@@ -7,7 +7,7 @@
 namespace alea {
 
 /// What a ray can hit. Positions in the scene's arrays of the same name.
-enum class SurfaceKind : std::uint8_t { die, patch, box, cylinder, sphere, checkerboard };
+enum class SurfaceKind : std::uint8_t { die, patch, box, cylinder, sphere, checkerboard, mesh };
 
 /// Names the surface that a point lies on.
 struct SurfaceId {

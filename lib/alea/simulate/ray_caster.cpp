@@ -59,6 +59,7 @@ RayCaster::RayCaster(const Scene& scene, const Station& station) : scene_(scene)
   add(SurfaceKind::cylinder, scene.cylinders, station);
   add(SurfaceKind::sphere, scene.spheres, station);
   add(SurfaceKind::checkerboard, scene.checkerboards, station);
+  add(SurfaceKind::mesh, scene.meshes, station);
 }
 
 std::vector<Candidate> RayCaster::candidates(std::int64_t row) const {
@@ -91,6 +92,9 @@ Hit RayCaster::cast(const std::vector<Candidate>& candidates, std::int64_t colum
         break;
       case SurfaceKind::checkerboard:
         intersect(scene_.checkerboards[c.index], c.index, ray, hit);
+        break;
+      case SurfaceKind::mesh:
+        intersect(scene_.meshes[c.index], c.index, ray, hit);
         break;
     }
   }

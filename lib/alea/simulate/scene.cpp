@@ -44,6 +44,15 @@ BoundingBall bounding_ball(const Checkerboard& board) {
   return {board.scene_from_board.translation, half_plate_m(board).norm()};
 }
 
+BoundingBall bounding_ball(const Mesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& vertex : mesh.body.vertices) box.extend(vertex);
+  BoundingBall ball{box.center(), 0};
+  for (const Eigen::Vector3d& vertex : mesh.body.vertices)
+    ball.radius_m = std::max(ball.radius_m, (vertex - ball.centre_m).norm());
+  return ball;
+}
+
 Eigen::Vector2d half_plate_m(const Checkerboard& board) {
   const Eigen::Vector2d pattern = Eigen::Vector2d(board.columns, board.rows) * board.cell_m;
   return pattern / 2 + Eigen::Vector2d::Constant(board.margin_m);

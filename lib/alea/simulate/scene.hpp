@@ -8,6 +8,7 @@
 #include "alea/core/noise_model.hpp"
 #include "alea/core/rigid_transform.hpp"
 #include "alea/simulate/die_model.hpp"
+#include "alea/simulate/mesh.hpp"
 
 namespace alea {
 
@@ -101,6 +102,7 @@ struct Scene {
   std::vector<Cylinder> cylinders;
   std::vector<Sphere> spheres;
   std::vector<Checkerboard> checkerboards;
+  std::vector<Mesh> meshes;
   std::vector<Station> stations;
 };
 
@@ -116,6 +118,7 @@ BoundingBall bounding_ball(const Box& box);
 BoundingBall bounding_ball(const Cylinder& cylinder);
 BoundingBall bounding_ball(const Sphere& sphere);
 BoundingBall bounding_ball(const Checkerboard& board);
+BoundingBall bounding_ball(const Mesh& mesh);
 
 /// Upright pose at `position_m`; the scan's x axis points to `heading_rad` (from scene x to y).
 RigidTransform levelled_pose(const Eigen::Vector3d& position_m, double heading_rad);

@@ -81,6 +81,39 @@ Checkerboard read_checkerboard(const TomlTable& table, std::size_t number) {
   return board;
 }
 
+/// The triangles of a mesh as it stands in its file or in the scene, in the mesh's own frame.
+TriangleMesh read_triangles(const TomlTable& table, const std::filesystem::path& folder) {
+  if (table.has("file")) {
+    if (table.has("vertices_m")) table.fail("vertices_m", "either this or a file");
+    return read_mesh((folder / table.text("file", "")).string());
+  }
+  TriangleMesh mesh;
+  mesh.vertices = table.vectors("vertices_m");
+  for (const Eigen::Vector3d& corners : table.vectors("triangles")) {
+    const Eigen::Array3d whole = corners.array().floor();
+    if ((whole != corners.array()).any() || whole.minCoeff() < 0 ||
+        whole.maxCoeff() >= static_cast<double>(mesh.vertices.size()))
+      table.fail("triangles", "three vertices each, counted from 0");
+    mesh.triangles.push_back({static_cast<std::uint32_t>(whole[0]),
+                              static_cast<std::uint32_t>(whole[1]),
+                              static_cast<std::uint32_t>(whole[2])});
+  }
+  if (mesh.triangles.empty()) table.fail("", "a file, or vertices_m and triangles");
+  return mesh;
+}
+
+Mesh read_mesh_table(const TomlTable& table, std::size_t number,
+                     const std::filesystem::path& folder) {
+  const std::string id = table.text("id", fmt::format("mesh {}", number));
+  TriangleMesh body = read_triangles(table, folder);
+  const double scale = table.number("scale", 1, Allowed::positive);
+  const RigidTransform scene_from_mesh = read_pose(table, "position_m");
+  const double intensity = read_intensity(table, 0.5);
+  table.finish();
+  for (Eigen::Vector3d& vertex : body.vertices) vertex = scene_from_mesh * (scale * vertex);
+  return build_mesh(id, std::move(body), intensity);
+}
+
 void set_roles(const TomlTable& table, const std::string& key, PatchRole role,
                std::vector<Patch>& faces) {
   for (const std::string& id : table.texts(key)) {
@@ -132,6 +165,7 @@ std::vector<std::pair<std::string, BoundingBall>> targets_of(const Scene& scene)
   add(scene.cylinders);
   add(scene.spheres);
   add(scene.checkerboards);
+  add(scene.meshes);
   return targets;
 }
 
@@ -148,6 +182,10 @@ Scene load_scene(const std::filesystem::path& path) {
   read_all(file, "cylinder", read_cylinder, scene.cylinders);
   read_all(file, "sphere", read_sphere, scene.spheres);
   read_all(file, "checkerboard", read_checkerboard, scene.checkerboards);
+  const auto read_one = [&path](const TomlTable& table, std::size_t number) {
+    return read_mesh_table(table, number, path.parent_path());
+  };
+  read_all(file, "mesh", read_one, scene.meshes);
   Scanner scanner;
   if (const auto table = file.table("scanner")) scanner = read_scanner(*table, scanner);
   const auto targets = targets_of(scene);

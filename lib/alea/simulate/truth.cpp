@@ -125,6 +125,11 @@ std::string truth_json(const Scene& scene, std::uint64_t seed,
   truth["checkerboards"] = Json::array();
   for (const Checkerboard& board : scene.checkerboards)
     truth["checkerboards"].push_back(to_json(board));
+  truth["meshes"] = Json::array();
+  for (const Mesh& mesh : scene.meshes)
+    truth["meshes"].push_back({{"id", mesh.id},
+                               {"vertices", mesh.body.vertices.size()},
+                               {"triangles", mesh.body.triangles.size()}});
   return truth.dump(2) + "\n";
 }
 
