@@ -58,6 +58,7 @@ void add_convert(CLI::App& app, int& exit_code);
 void add_merge(CLI::App& app, int& exit_code);
 void add_evaluate(CLI::App& app, int& exit_code);
 void add_apply(CLI::App& app, int& exit_code);
+void add_transform(CLI::App& app, int& exit_code);
 void add_simulate(CLI::App& app, int& exit_code);
 void add_register(CLI::App& app, int& exit_code);
 

@@ -58,6 +58,7 @@ int run(int argc, char** argv) {
            add_merge,
            add_evaluate,
            add_apply,
+           add_transform,
            add_simulate,
            add_register,
            add_acceptance,

@@ -36,6 +36,9 @@ std::vector<ScanFile> read_ptx(const InputFile& file, const ReadOptions& options
 /// do not make a grid becomes one column. 0 0 0, which the format keeps for missing returns, is
 /// written as 1e-300 0 0.
 void write_ptx(const std::string& path, const std::vector<ScanFile>& scans);
+/// The eight lines of a PTX header that hold a pose: position, three axes, and the 4x4 for row
+/// vectors.
+std::string ptx_pose_lines(const Eigen::Matrix4d& pose);
 
 /// E57 (ASTM E2807-11): every scan in its own frame with its pose. Not read: images, blobs, point
 /// groups, intensity and colour flags.
@@ -43,6 +46,8 @@ std::vector<ScanFile> read_e57(const InputFile& file, const ReadOptions& options
 /// Points untouched, the pose beside them. Throws Error(input) for a pose that is not rigid, which
 /// the format cannot hold.
 void write_e57(const std::string& path, const std::vector<ScanFile>& scans);
+/// The element `pose` of a scan: a unit quaternion and a translation. The pose must be rigid.
+std::string e57_pose_xml(const Eigen::Matrix4d& pose);
 
 /// LAS 1.0 to 1.4, point formats 0 to 10 (ASPRS, LAS specification 1.4 R15). All points are kept,
 /// also those that are flagged as withheld; colours of which none exceeds 255 are taken as 8-bit.

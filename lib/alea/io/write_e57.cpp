@@ -137,17 +137,6 @@ std::string guid_of(std::uint64_t a, std::uint64_t b) {
   return fmt::format("{{{:08X}-0000-4000-8000-{:012X}}}", a & 0xFFFFFFFF, b & 0xFFFFFFFFFFFF);
 }
 
-std::string pose_xml(const Eigen::Matrix4d& pose) {
-  const Eigen::Quaterniond q(Eigen::Matrix3d(pose.topLeftCorner<3, 3>()));
-  const auto value = [](const char* name, double v) {
-    return fmt::format("<{0} type=\"Float\">{1}</{0}>", name, v);
-  };
-  return "<pose type=\"Structure\"><rotation type=\"Structure\">" + value("w", q.w()) +
-         value("x", q.x()) + value("y", q.y()) + value("z", q.z()) +
-         "</rotation><translation type=\"Structure\">" + value("x", pose(0, 3)) +
-         value("y", pose(1, 3)) + value("z", pose(2, 3)) + "</translation></pose>\n";
-}
-
 std::string bounds_xml(const Cloud& cloud) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : cloud.positions) box.extend(p);
@@ -187,7 +176,7 @@ std::string scan_xml(const ScanFile& scan, const std::vector<Field>& fields, std
       "<vectorChild type=\"Structure\">\n<guid type=\"String\">{}</guid>\n<name "
       "type=\"String\">{}</name>\n",
       guid_of(scan.cloud.size(), number), escaped(scan.name));
-  if (scan.pose) out += pose_xml(*scan.pose);
+  if (scan.pose) out += e57_pose_xml(*scan.pose);
   out += bounds_xml(scan.cloud) + limits_xml(scan.cloud);
   out += fmt::format(
       "<points type=\"CompressedVector\" fileOffset=\"{}\" recordCount=\"{}\">\n"
@@ -200,6 +189,17 @@ std::string scan_xml(const ScanFile& scan, const std::vector<Field>& fields, std
 }
 
 }  // namespace
+
+std::string e57_pose_xml(const Eigen::Matrix4d& pose) {
+  const Eigen::Quaterniond q(Eigen::Matrix3d(pose.topLeftCorner<3, 3>()));
+  const auto value = [](const char* name, double v) {
+    return fmt::format("<{0} type=\"Float\">{1}</{0}>", name, v);
+  };
+  return "<pose type=\"Structure\"><rotation type=\"Structure\">" + value("w", q.w()) +
+         value("x", q.x()) + value("y", q.y()) + value("z", q.z()) +
+         "</rotation><translation type=\"Structure\">" + value("x", pose(0, 3)) +
+         value("y", pose(1, 3)) + value("z", pose(2, 3)) + "</translation></pose>\n";
+}
 
 void write_e57(const std::string& path, const std::vector<ScanFile>& scans) {
   for (std::size_t s = 0; s < scans.size(); ++s)

@@ -45,24 +45,12 @@ Grid grid_of(const Cloud& cloud) {
   return grid;
 }
 
-// Position, axes and matrix of the scanner, for row vectors.
-std::string header_of(const Grid& grid, const Eigen::Matrix4d& pose) {
-  std::string out = fmt::format("{}\n{}\n", grid.columns, grid.rows);
-  const auto row = [&](int column, int values) {
-    for (int i = 0; i < values; ++i)
-      fmt::format_to(std::back_inserter(out), "{}{}", pose(i, column), i + 1 < values ? ' ' : '\n');
-  };
-  row(3, 3);
-  for (int axis = 0; axis < 3; ++axis) row(axis, 3);
-  for (int column = 0; column < 4; ++column) row(column, 4);
-  return out;
-}
-
 void write_scan(AtomicFile& file, const ScanFile& scan) {
   const Cloud& cloud = scan.cloud;
   const Grid grid = grid_of(cloud);
   const bool colour = !cloud.colours.empty();
-  std::string out = header_of(grid, scan.pose.value_or(Eigen::Matrix4d::Identity()));
+  std::string out = fmt::format("{}\n{}\n", grid.columns, grid.rows) +
+                    ptx_pose_lines(scan.pose.value_or(Eigen::Matrix4d::Identity()));
   for (const std::uint32_t i : grid.points) {
     if (i == no_point) {
       out += colour ? "0 0 0 0.5 0 0 0\n" : "0 0 0 0.5\n";
@@ -85,6 +73,18 @@ void write_scan(AtomicFile& file, const ScanFile& scan) {
 }
 
 }  // namespace
+
+std::string ptx_pose_lines(const Eigen::Matrix4d& pose) {
+  std::string out;
+  const auto row = [&](int column, int values) {
+    for (int i = 0; i < values; ++i)
+      fmt::format_to(std::back_inserter(out), "{}{}", pose(i, column), i + 1 < values ? ' ' : '\n');
+  };
+  row(3, 3);
+  for (int axis = 0; axis < 3; ++axis) row(axis, 3);
+  for (int column = 0; column < 4; ++column) row(column, 4);
+  return out;
+}
 
 void write_ptx(const std::string& path, const std::vector<ScanFile>& scans) {
   AtomicFile file(path);
