@@ -5,23 +5,23 @@
 #include <pcl/point_types.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iostream>
 #include <iterator>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "alea/core/seed.hpp"
 #include "alea/io/cloud_file.hpp"
 
-// reading_benchmark FOLDER [POINTS [ROUNDS]]: seconds to read a PLY, a PCD and an ascii file
-// of POINTS points (x y z as floats, four decimals in text), for Alea, PCL and a plain read of the
-// same bytes, interleaved, medians. Open3D: reading_open3d.py on the same files.
+// The C++ half of reading_benchmark.py: it writes a PLY and a PCD file, binary and ascii, and an
+// XYZ file (x y z as floats, four decimals in text), and reads them for Alea, PCL and a plain read
+// of the same bytes.
 
 namespace {
 
@@ -46,6 +46,12 @@ void write_files(const std::string& folder, std::size_t points) {
       "HEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {}\nDATA ascii\n",
       points, points);
   std::ofstream(folder + "/t.xyz") << text;
+  std::ofstream(folder + "/ascii.ply")
+      << fmt::format(
+             "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\n"
+             "property float z\nend_header\n",
+             points)
+      << text;
   std::ofstream(folder + "/ascii.pcd") << header << text;
   for (Eigen::Vector3d& p : cloud.positions) p = p.cast<float>().cast<double>();
   alea::write_cloud(folder + "/t.ply", cloud);
@@ -76,41 +82,24 @@ double seconds(const std::function<std::size_t(const std::string&)>& read,
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
-void compare(const std::string& path, std::size_t points, int rounds) {
-  const bool has_pcl = !path.ends_with(".xyz");
-  const auto alea_read = [](const std::string& p) { return alea::read_cloud(p).size(); };
-  std::vector<double> plain, ours, theirs;
-  for (int i = 0; i < rounds; ++i) {
-    plain.push_back(seconds(plain_read, path));
-    ours.push_back(seconds(alea_read, path));
-    if (has_pcl) theirs.push_back(seconds(pcl_read, path));
-  }
-  const double megapoints = static_cast<double>(points) / 1e6;
-  fmt::print("{:<10} alea {:.3f} s ({:.1f} Mpts/s), {:.1f} times a plain read ({:.3f} s)",
-             std::filesystem::path(path).filename().string(), median(ours),
-             megapoints / median(ours), median(ours) / median(plain), median(plain));
-  if (has_pcl)
-    fmt::print("; PCL {:.3f} s: factor {:.1f}", median(theirs), median(theirs) / median(ours));
-  fmt::print("\n");
-}
-
 }  // namespace
 
+// Writes the files, says so, and then answers each line "READER PATH" with the seconds that took.
 int main(int argc, char** argv) {
-  if (argc < 2) {
-    fmt::print(stderr, "usage: reading_benchmark FOLDER [POINTS [ROUNDS]]\n");
+  if (argc != 3) {
+    fmt::print(stderr, "usage: benchmark_reading FOLDER POINTS, driven by reading_benchmark.py\n");
     return 2;
   }
-  const std::string folder = argv[1];
-  const std::size_t points = argc > 2 ? std::stoul(argv[2]) : 10000000;
-  const int rounds = argc > 3 ? std::stoi(argv[3]) : 5;
-  write_files(folder, points);
-  for (const char* name : {"t.ply", "t.pcd", "ascii.pcd", "t.xyz"})
-    compare(folder + "/" + name, points, rounds);
+  const std::map<std::string, std::function<std::size_t(const std::string&)>> readers{
+      {"plain", plain_read}, {"pcl", pcl_read}, {"alea", [](const std::string& path) {
+                                                   return alea::read_cloud(path).size();
+                                                 }}};
+  write_files(argv[1], std::stoul(argv[2]));
+  fmt::print("ready\n");
+  std::fflush(stdout);
+  for (std::string reader, path; std::cin >> reader >> path;) {
+    fmt::print("{:.6f}\n", seconds(readers.at(reader), path));
+    std::fflush(stdout);
+  }
   return 0;
 }

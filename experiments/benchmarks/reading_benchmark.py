@@ -1,0 +1,62 @@
+#!/usr/bin/env python3
+"""Seconds to read ten million points: Alea, PCL, Open3D and a plain read of the same bytes, interleaved.
+
+reading_benchmark.py FOLDER [--points N] [--rounds R] [--program build/release/bin/benchmark_reading]
+
+benchmark_reading writes the files (x y z as floats; text with four decimals) and reads them for Alea, PCL and the
+plain read; Open3D reads here. In each round every reader reads every file once, in an order drawn anew. Medians.
+"""
+import argparse
+import pathlib
+import random
+import statistics
+import subprocess
+import time
+
+import open3d
+
+FILES = ("t.ply", "t.pcd", "ascii.pcd", "ascii.ply", "t.xyz")
+READERS = ("plain", "alea", "pcl", "open3d")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--points", type=int, default=10_000_000)
+    parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--program", default="build/release/bin/benchmark_reading")
+    options = parser.parse_args()
+    options.folder.mkdir(parents=True, exist_ok=True)
+    server = subprocess.Popen([options.program, str(options.folder), str(options.points)], stdin=subprocess.PIPE,
+                              stdout=subprocess.PIPE, text=True)
+    server.stdout.readline()  # the files are written
+
+    def seconds(reader, path):
+        if reader == "open3d":
+            start = time.perf_counter()
+            if len(open3d.io.read_point_cloud(str(path)).points) != options.points:
+                raise SystemExit(f"{path}: Open3D did not read every point")
+            return time.perf_counter() - start
+        server.stdin.write(f"{reader} {path}\n")
+        server.stdin.flush()
+        return float(server.stdout.readline())
+
+    jobs = [(reader, name) for name in FILES for reader in READERS if not (reader == "pcl" and name == "t.xyz")]
+    times = {job: [] for job in jobs}
+    rng = random.Random(1)
+    for _ in range(options.rounds):
+        for reader, name in rng.sample(jobs, len(jobs)):
+            times[reader, name].append(seconds(reader, options.folder / name))
+    print("| file | Alea | plain read | PCL | Open3D | Alea / plain | PCL / Alea | Open3D / Alea |\n|---|---|---|---|---|---|---|---|")
+    for name in FILES:
+        m = {reader: statistics.median(times[reader, name]) for reader in READERS if (reader, name) in times}
+        pcl = f"{m['pcl']:.2f} | " if "pcl" in m else "not read | "
+        ratio = f"{m['pcl'] / m['alea']:.1f}" if "pcl" in m else "-"
+        print(f"| {name} | {m['alea']:.3f} | {m['plain']:.3f} | {pcl}{m['open3d']:.2f} | {m['alea'] / m['plain']:.1f} | "
+              f"{ratio} | {m['open3d'] / m['alea']:.1f} |")
+    server.stdin.close()
+    server.wait()
+
+
+if __name__ == "__main__":
+    main()
