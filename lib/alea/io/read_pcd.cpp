@@ -62,16 +62,10 @@ Cloud read_records(const PcdHeader& header, std::string_view records, bool plana
                    const ReadOptions& options, const InputFile* release) {
   const RecordTable table = table_of(header, planar);
   CloudSink sink(channels_of(role_names(header)), options);
-  sink.reserve(header.points);
-  for (std::size_t first = 0; first < header.points; first += batch_points) {
-    const std::size_t count = std::min(batch_points, header.points - first);
-    sink.append(count, [&](Cloud& cloud, std::size_t at, std::size_t from, std::size_t to) {
-      copy_records(table, records, cloud, at, first + from, first + to);
-      return DroppedPoints{};
-    });
+  append_records(sink, table, records, header.points, [&](std::size_t done) {
     if (release != nullptr)
-      release->release_before(header.body_offset + (first + count) * header.record_size());
-  }
+      release->release_before(header.body_offset + done * header.record_size());
+  });
   return sink.take();
 }
 

@@ -86,15 +86,9 @@ Cloud read_binary(const InputFile& file, const PlyElement& vertex, bool big_endi
   const std::string_view records =
       vertex.has_list() ? std::string_view(packed) : file.bytes().substr(offset, end - offset);
   CloudSink sink(channels_of(names_of(vertex)), options);
-  sink.reserve(vertex.count);
-  for (std::size_t first = 0; first < vertex.count; first += batch_points) {
-    const std::size_t count = std::min(batch_points, vertex.count - first);
-    sink.append(count, [&](Cloud& cloud, std::size_t at, std::size_t from, std::size_t to) {
-      copy_records(table, records, cloud, at, first + from, first + to);
-      return DroppedPoints{};
-    });
-    if (!vertex.has_list()) file.release_before(offset + (first + count) * vertex.record_size());
-  }
+  append_records(sink, table, records, vertex.count, [&](std::size_t done) {
+    if (!vertex.has_list()) file.release_before(offset + done * vertex.record_size());
+  });
   return sink.take();
 }
 

@@ -182,4 +182,17 @@ void copy_records(const RecordTable& table, std::string_view bytes, Cloud& cloud
     copy_all<false>(table, bytes, cloud, at, begin, end);
 }
 
+void append_records(CloudSink& sink, const RecordTable& table, std::string_view bytes,
+                    std::size_t count, const std::function<void(std::size_t)>& release) {
+  sink.reserve(count);
+  for (std::size_t first = 0; first < count; first += batch_points) {
+    const std::size_t size = std::min(batch_points, count - first);
+    sink.append(size, [&](Cloud& cloud, std::size_t at, std::size_t from, std::size_t to) {
+      copy_records(table, bytes, cloud, at, first + from, first + to);
+      return DroppedPoints{};
+    });
+    if (release) release(first + size);
+  }
+}
+
 }  // namespace alea

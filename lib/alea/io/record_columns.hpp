@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "alea/core/cloud.hpp"
+#include "alea/io/cloud_sink.hpp"
 
 namespace alea {
 
@@ -45,5 +47,10 @@ struct RecordTable {
 /// checked that the records lie inside `bytes`.
 void copy_records(const RecordTable& table, std::string_view bytes, Cloud& cloud, std::size_t at,
                   std::size_t begin, std::size_t end);
+
+/// Adds `count` records to the sink, batch by batch; `release(done)`, if any, is told after each
+/// how many records are done.
+void append_records(CloudSink& sink, const RecordTable& table, std::string_view bytes,
+                    std::size_t count, const std::function<void(std::size_t done)>& release);
 
 }  // namespace alea

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include "alea/io/atomic_file.hpp"
 #include "alea/io/binary_output.hpp"
 #include "alea/io/formats.hpp"
 
@@ -33,28 +32,7 @@ std::string header_of(const Cloud& cloud, bool as_float) {
 
 void write_pcd(const std::string& path, const Cloud& cloud) {
   const bool as_float = fits_float(cloud);
-  std::string out = header_of(cloud, as_float);
-  AtomicFile file(path);
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    for (const double value : cloud.positions[i])
-      as_float ? append_bytes(out, static_cast<float>(value)) : append_bytes(out, value);
-    if (cloud.has_intensity()) append_bytes(out, cloud.intensity[i]);
-    if (!cloud.colours.empty()) {
-      const Colour& c = cloud.colours[i];
-      append_bytes(out, static_cast<std::uint32_t>(colour_byte(c[0]) << 16 |
-                                                   colour_byte(c[1]) << 8 | colour_byte(c[2])));
-    }
-    if (!cloud.normals.empty()) append_bytes(out, cloud.normals[i]);
-    if (!cloud.rows.empty()) {
-      append_bytes(out, cloud.rows[i]);
-      append_bytes(out, cloud.columns[i]);
-    }
-    if (out.size() < (1 << 20)) continue;
-    file.write(out);
-    out.clear();
-  }
-  file.write(out);
-  file.commit();
+  write_records(path, header_of(cloud, as_float), cloud, {as_float, ColourLayout::packed});
 }
 
 }  // namespace alea

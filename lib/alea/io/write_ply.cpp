@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include "alea/io/atomic_file.hpp"
 #include "alea/io/binary_output.hpp"
 #include "alea/io/formats.hpp"
 #include "alea/io/ply_header.hpp"
@@ -23,25 +22,7 @@ void write_ply(const std::string& path, const Cloud& cloud) {
   if (!cloud.normals.empty()) declare("float", {"nx", "ny", "nz"});
   if (!cloud.rows.empty()) declare("int", {"row", "column"});
   out += "end_header\n";
-  AtomicFile file(path);
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    for (const double value : cloud.positions[i])
-      as_float ? append_bytes(out, static_cast<float>(value)) : append_bytes(out, value);
-    if (cloud.has_intensity()) append_bytes(out, cloud.intensity[i]);
-    if (!cloud.colours.empty())
-      for (const std::uint16_t value : cloud.colours[i])
-        as_bytes ? append_bytes(out, colour_byte(value)) : append_bytes(out, value);
-    if (!cloud.normals.empty()) append_bytes(out, cloud.normals[i]);
-    if (!cloud.rows.empty()) {
-      append_bytes(out, cloud.rows[i]);
-      append_bytes(out, cloud.columns[i]);
-    }
-    if (out.size() < (1 << 20)) continue;
-    file.write(out);
-    out.clear();
-  }
-  file.write(out);
-  file.commit();
+  write_records(path, out, cloud, {as_float, as_bytes ? ColourLayout::bytes : ColourLayout::words});
 }
 
 }  // namespace alea
