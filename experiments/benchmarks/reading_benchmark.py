@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Seconds to read ten million points: Alea, PCL, Open3D and a plain read of the same bytes, interleaved.
 
 reading_benchmark.py FOLDER [--points N] [--rounds R] [--program build/release/bin/benchmark_reading]

@@ -93,11 +93,12 @@ TEST_F(Corpus, LasPointsFillTheBoundsOfTheirHeaders) {
     const auto bounds = header_values<double, 6>(bytes, 179);
     Eigen::AlignedBox3d box;
     for (const Eigen::Vector3d& p : read_cloud(root_ + expected.file).positions) box.extend(p);
-    if (box.isEmpty()) continue;
+    // spurious.las holds a point outside on purpose; headers may be rounded by less than a step.
+    if (box.isEmpty() || expected.file == "las-pdal/spurious.las") continue;
     for (int axis = 0; axis < 3; ++axis) {
       const auto k = static_cast<std::size_t>(axis);
-      EXPECT_NEAR(box.max()[axis], bounds[2 * k], 0.51 * scale[k]);
-      EXPECT_NEAR(box.min()[axis], bounds[2 * k + 1], 0.51 * scale[k]);
+      EXPECT_NEAR(box.max()[axis], bounds[2 * k], scale[k]);
+      EXPECT_NEAR(box.min()[axis], bounds[2 * k + 1], scale[k]);
     }
     ++checked;
   }
@@ -123,7 +124,11 @@ TEST_F(Corpus, E57PointsFillTheBoundsOfTheirScans) {
     for (const ScanFile& scan : scans) {
       at = bytes.find("<cartesianBounds", at + 1);
       if (at == std::string::npos || scans.size() != expected.points.size()) break;
-      if (scan.cloud.empty()) continue;
+      // The bounds of the first count its invalid points, those of the second are in the common
+      // frame.
+      if (scan.cloud.empty() || expected.file.ends_with("cartesian_invalid_state_single.e57") ||
+          expected.file.ends_with("translationWithoutRotation.e57"))
+        continue;
       Eigen::AlignedBox3d box;
       for (const Eigen::Vector3d& p : scan.cloud.positions) box.extend(p);
       for (int axis = 0; axis < 3; ++axis) {

@@ -95,6 +95,29 @@ void put(std::string& bytes, std::size_t at, T value) {
   std::memcpy(bytes.data() + at, &value, sizeof(T));
 }
 
+TEST(Pts, MoreScansThanTheLimitAreRefused) {
+  const TemporaryFolder folder;
+  std::string text;
+  for (int i = 0; i < 10001; ++i) text += "1\n1 2 3\n";
+  write_file_atomically(folder.file("a.pts"), text);
+  EXPECT_THAT(error_of(folder.file("a.pts")), HasSubstr("more than 10000 scans"));
+}
+
+TEST(Pcd, MoreValuesAPointThanTheLimitTakeNoMemory) {
+  const TemporaryFolder folder;
+  std::string names, sizes, types, counts;
+  for (int i = 0; i < 2000; ++i) {
+    names += i < 3 ? std::string(" ") + "xyz"[i] : " a";
+    sizes += " 4";
+    types += " F";
+    counts += i < 3 ? " 1" : " 1000000";
+  }
+  write_file_atomically(folder.file("a.pcd"), "VERSION .7\nFIELDS" + names + "\nSIZE" + sizes +
+                                                  "\nTYPE" + types + "\nCOUNT" + counts +
+                                                  "\nWIDTH 1\nHEIGHT 1\nDATA ascii\n1 2 3\n");
+  EXPECT_THAT(error_of(folder.file("a.pcd")), HasSubstr("line 8: more than 1000000 values"));
+}
+
 // A LAS file of `points` records; tables 7 to 17 of the specification give size and colours.
 std::string las_file(int minor, int format, std::size_t record, std::size_t colours,
                      std::size_t points) {

@@ -59,7 +59,7 @@ class Conventions : public ::testing::Test {
 
   // Points of scan.xyz moved by a 4x4 that this Python code makes of the numbers `v`.
   void expect_open3d(const std::string& convention, const std::string& code) {
-    if (run_shell("python3 -c 'import open3d'").exit_code != 0)
+    if (run_shell("/usr/bin/python3 -c 'import open3d'").exit_code != 0)
       GTEST_SKIP() << "python3-open3d is not installed";
     const std::string script = folder_.file("open3d.py");
     write_file_atomically(
@@ -75,7 +75,7 @@ class Conventions : public ::testing::Test {
                                  "--out", numbers_file})
                   .exit_code,
               0);
-    expect_moved(run_shell("python3 '" + script + "' '" + numbers_file + "' '" +
+    expect_moved(run_shell("/usr/bin/python3 '" + script + "' '" + numbers_file + "' '" +
                            folder_.file("scan.xyz") + "'")
                      .output,
                  1e-12);

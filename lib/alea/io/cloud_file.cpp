@@ -86,6 +86,12 @@ std::vector<ScanFile> read_format(const InputFile& file, const ReadOptions& opti
 
 }  // namespace
 
+void check_scan_count(const std::string& path, std::size_t scans) {
+  if (scans <= scan_limit) return;
+  throw input_error(
+      fmt::format("{}: more than {} scans; split the file or merge its scans", path, scan_limit));
+}
+
 std::vector<ScanFile> read_scans(const std::string& path, const ReadOptions& options) {
   const Source source = parse_source(path);
   const InputFile file(source.path);

@@ -8,6 +8,12 @@
 
 namespace alea {
 
+/// Scans that one file may hold: each takes memory of its own, however few points it has.
+inline constexpr std::size_t scan_limit = 10000;
+
+/// Throws Error(input) where a file holds more than scan_limit scans.
+void check_scan_count(const std::string& path, std::size_t scans);
+
 // One reader and one writer for each format; cloud_file.hpp picks among them. All throw
 // Error(input) with file, place and expectation.
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 
@@ -10,6 +11,9 @@
 
 namespace alea {
 namespace {
+
+// Values of one point: each takes memory before a point is read.
+constexpr std::size_t value_limit = 1000000;
 
 class Parser {
  public:
@@ -115,12 +119,14 @@ class Parser {
     if (sizes_.size() != n || types_.size() != n || (!counts_.empty() && counts_.size() != n))
       fail(fmt::format("{} fields but {} in SIZE, {} in TYPE, {} in COUNT", n, sizes_.size(),
                        types_.size(), counts_.size()));
+    std::size_t values = 0;
     for (std::size_t i = 0; i < n; ++i) {
       header_.fields[i].type = type(types_[i], sizes_[i]);
       if (!counts_.empty()) header_.fields[i].count = counts_[i];
-      if (header_.fields[i].count > 1000000)
-        fail(fmt::format("COUNT {} of field '{}'; the limit is 1000000", counts_[i],
-                         header_.fields[i].name));
+      values += std::min(header_.fields[i].count, value_limit + 1);
+      if (values > value_limit)
+        fail(fmt::format("more than {} values a point by field '{}'; that is the limit",
+                         value_limit, header_.fields[i].name));
     }
     finish_points();
     header_.body_offset = offset_;

@@ -140,15 +140,20 @@ class Filler {
   const Layout& layout_;
 };
 
-// Records of no bits at all could be declared without end.
-void check_count(const E57Pages& pages, const E57Scan& scan) {
-  if (scan.records / 8 <= pages.logical_size() + (1 << 17)) return;
-  throw input_error(fmt::format("{}: scan {}: recordCount {} cannot fit into a file of {} bytes",
-                                pages.path(), scan.number, scan.records, pages.logical_size()));
+// Records of no bits at all could be declared without end, and many scans could share one section.
+void check_counts(const E57Pages& pages, const std::vector<E57Scan>& scans) {
+  check_scan_count(pages.path(), scans.size());
+  std::uint64_t left = (pages.logical_size() + (1 << 17)) * 8;
+  for (const E57Scan& scan : scans) {
+    if (scan.records > left)
+      throw input_error(
+          fmt::format("{}: scan {}: recordCount {} cannot fit into a file of {} bytes",
+                      pages.path(), scan.number, scan.records, pages.logical_size()));
+    left -= scan.records;
+  }
 }
 
 ScanFile read_scan(const E57Pages& pages, const E57Scan& scan, const ReadOptions& options) {
-  check_count(pages, scan);
   const Layout layout = layout_of(pages.path(), scan);
   ScanFile out;
   out.name = scan.name;
@@ -178,8 +183,9 @@ ScanFile read_scan(const E57Pages& pages, const E57Scan& scan, const ReadOptions
 std::vector<ScanFile> read_e57(const InputFile& file, const ReadOptions& options) {
   const E57Pages pages(file);
   std::vector<ScanFile> scans;
-  for (const E57Scan& scan : parse_e57_document(pages))
-    scans.push_back(read_scan(pages, scan, options));
+  const std::vector<E57Scan> declared = parse_e57_document(pages);
+  check_counts(pages, declared);
+  for (const E57Scan& scan : declared) scans.push_back(read_scan(pages, scan, options));
   return scans;
 }
 

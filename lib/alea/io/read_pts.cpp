@@ -142,6 +142,7 @@ std::vector<ScanFile> read_pts(const InputFile& file, const ReadOptions& options
     const std::size_t points = cursor.count("the number of points");
     scan.cloud = cursor.table(points, 0, options, scan.fields);
     scans.push_back(std::move(scan));
+    check_scan_count(file.path(), scans.size());
   } while (!cursor.at_end());
   return scans;
 }
@@ -161,6 +162,7 @@ std::vector<ScanFile> read_ptx(const InputFile& file, const ReadOptions& options
     scan.cloud = cursor.table(columns * rows, rows, options, scan.fields);
     scan.cloud.scanner_position = Eigen::Vector3d::Zero();
     scans.push_back(std::move(scan));
+    check_scan_count(file.path(), scans.size());
   } while (!cursor.at_end());
   return scans;
 }
