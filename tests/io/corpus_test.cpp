@@ -147,8 +147,8 @@ TEST_F(Corpus, E57PointsFillTheBoundsOfTheirScans) {
 // The program on every file: exit code, one line, time, and memory of at most 64 MB and four times
 // the file.
 TEST_F(Corpus, TheProgramNeedsLittleMemoryForAnyFile) {
-  const testing::TemporaryFolder folder;
-  const std::string message = folder.file("message");
+  const testing::TemporaryFolder scratch;
+  const std::string message = scratch.file("message");
   for (const Expectation& expected : expectations()) {
     SCOPED_TRACE(expected.file);
     const std::string path = root_ + expected.file;

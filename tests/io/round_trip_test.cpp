@@ -56,9 +56,8 @@ TEST(RoundTrip, EveryReadableFormatToEveryWritableOneFarFromTheOrigin) {
     ASSERT_EQ(cloud.size(), truth.size());
     // A LAS value is a number of steps: a product and a sum, each rounded once.
     const double resolution = name == "a.las" ? 2e-9 : 0;
-    if (name != "a.ptx")
-      for (std::size_t i = 0; i < truth.size(); ++i)
-        EXPECT_LE((cloud.positions[i] - truth.positions[i]).cwiseAbs().maxCoeff(), resolution);
+    for (std::size_t i = 0; i < truth.size() && name != "a.ptx"; ++i)
+      EXPECT_LE((cloud.positions[i] - truth.positions[i]).cwiseAbs().maxCoeff(), resolution);
     for (const std::string format : writable) {
       write_cloud(folder.file("out." + format), cloud);
       expect_kept(cloud, read_cloud(folder.file("out." + format)), format);

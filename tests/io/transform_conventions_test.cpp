@@ -61,7 +61,7 @@ class Conventions : public ::testing::Test {
   void expect_open3d(const std::string& convention, const std::string& code) {
     if (run_shell("/usr/bin/python3 -c 'import open3d'").exit_code != 0)
       GTEST_SKIP() << "python3-open3d is not installed";
-    const std::string script = folder_.file("open3d.py");
+    const std::string script = folder_.file("move_points.py");
     write_file_atomically(
         script,
         "import sys, numpy, open3d\nv = [float(s) for s in open(sys.argv[1]).read().split()]\n"
