@@ -28,14 +28,16 @@ struct Bar {
 void print_bar(Bar& bar, std::uint64_t done, std::uint64_t total, double elapsed_s) {
   const double share = total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 0;
   const double remaining_s = share > 0 ? elapsed_s * (1 - share) / share : 0;
+  const double rate = elapsed_s > 0 ? static_cast<double>(done) / elapsed_s : 0;
   if (bar.terminal) {
     const int width = 30;
     const int filled = static_cast<int>(share * width);
-    fmt::print(stderr, "\r{:<24} [{:#<{}}{:.<{}}] {:3.0f} %  {:.0f} s left \x1b[K", bar.stage, "",
-               filled, "", width - filled, share * 100, remaining_s);
+    fmt::print(stderr, "\r{:<24} [{:#<{}}{:.<{}}] {:3.0f} %  {:.3g}/s  {:.0f} s left \x1b[K",
+               bar.stage, "", filled, "", width - filled, share * 100, rate, remaining_s);
     if (done >= total) fmt::print(stderr, "\n");
   } else {
-    fmt::print(stderr, "{}: {} of {} ({:.0f} s left)\n", bar.stage, done, total, remaining_s);
+    fmt::print(stderr, "{}: {} of {} ({:.3g}/s, {:.0f} s left)\n", bar.stage, done, total, rate,
+               remaining_s);
   }
   std::fflush(stderr);
 }

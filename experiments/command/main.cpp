@@ -11,6 +11,7 @@
 #include "alea/io/atomic_file.hpp"
 #include "alea/io/input_file.hpp"
 #include "experiments/command/command.hpp"
+#include "experiments/command/sweep.hpp"
 
 namespace {
 
@@ -63,6 +64,7 @@ int run(int argc, char** argv) {
            add_register,
            add_acceptance,
            add_reproduce,
+           add_sweep,
        })
     add(app, exit_code);
   try {

@@ -10,6 +10,7 @@
 #include "alea/die/closed_form.hpp"
 #include "alea/die/paper_registration.hpp"
 #include "experiments/die/acceptance.hpp"
+#include "experiments/die/mixed_axes.hpp"
 #include "experiments/die/skewed_die.hpp"
 
 namespace alea::acceptance {
@@ -45,20 +46,8 @@ RigidTransform by_nominal_edge(const SkewedDie& die) {
   return by_shared_edge(die, nominal_edge_m);
 }
 
-/// The shared edge fixed at both stations, but the second axis from the upper facet at one and from
-/// the shared side at the other.
 RigidTransform by_mixed_axes(const SkewedDie& die) {
-  const auto shared = shared_pips(die.master, die.slave);
-  const Eigen::Matrix3d master = edge_axes(die.master, shared[0], shared[1], shared[0]);
-  const Eigen::Matrix3d turned = edge_axes(die.slave, shared[0], shared[1], shared[1]);
-  Eigen::Matrix3d slave;
-  slave << turned.col(0), -turned.col(2), turned.col(1);
-  RigidTransform estimate = by_true_edge(die);
-  const Eigen::Vector3d corner = corner_frame(die.slave, shared[0]).value().corner_m;
-  const Eigen::Vector3d in_master = estimate * corner;
-  estimate.rotation = master * slave.transpose();
-  estimate.translation = in_master - estimate.rotation * corner;
-  return estimate;
+  return experiments::die::turn_by_mixed_axes(die.master, die.slave, by_true_edge(die));
 }
 
 template <FrameRule rule>

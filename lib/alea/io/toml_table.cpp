@@ -154,6 +154,15 @@ std::vector<std::string> TomlTable::texts(const std::string& key) const {
   return out;
 }
 
+std::vector<double> TomlTable::numbers(const std::string& key) const {
+  const toml::node* node = state_->find(key);
+  if (node == nullptr) return {};
+  const auto numbers =
+      node->is_array() ? numbers_of(*node, node->as_array()->size()) : std::nullopt;
+  if (!numbers) fail(key, "finite numbers [a, b, ...]");
+  return *numbers;
+}
+
 Eigen::Vector3d TomlTable::vector3(const std::string& key, const Eigen::Vector3d& missing) const {
   const toml::node* node = state_->find(key);
   if (node == nullptr) return missing;

@@ -36,6 +36,8 @@ class TomlTable {
                      const std::vector<std::string>& words) const;
   /// Texts in quotes [..]; empty where missing.
   std::vector<std::string> texts(const std::string& key) const;
+  /// Finite numbers [..], as many as there are; empty where missing.
+  std::vector<double> numbers(const std::string& key) const;
   Eigen::Vector3d vector3(const std::string& key, const Eigen::Vector3d& missing) const;
   /// The same for a key that must be there.
   Eigen::Vector3d vector3(const std::string& key) const;

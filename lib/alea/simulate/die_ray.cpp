@@ -119,6 +119,24 @@ Hit hit_on_facet(const Die& die, std::uint32_t index, int number, const Ray& ray
 
 }  // namespace
 
+bool passes(const Die& die, double margin_m, const Ray& ray) {
+  double enter = 0, leave = none;
+  for (const Plane& plane : die.body.planes) {
+    const double approach = plane.normal.dot(ray.direction);
+    const double height = plane.signed_distance(ray.origin) - margin_m;
+    if (approach == 0) {
+      if (height > 0) return false;
+      continue;
+    }
+    const double range = -height / approach;
+    if (approach > 0)
+      leave = std::min(leave, range);
+    else
+      enter = std::max(enter, range);
+  }
+  return enter <= leave;
+}
+
 void intersect(const Die& die, std::uint32_t index, const Ray& ray, Hit& hit) {
   const Entry entry = enter_body(die.body.planes, ray);
   if (entry.facet < 0 || entry.range_m >= hit.range_m) return;

@@ -10,4 +10,8 @@ namespace alea {
 /// discs, sunk by their recess.
 void intersect(const Die& die, std::uint32_t index, const Ray& ray, Hit& hit);
 
+/// Whether the ray comes within `margin_m` of the die's six planes' body (or a little farther,
+/// about its edges).
+bool passes(const Die& die, double margin_m, const Ray& ray);
+
 }  // namespace alea

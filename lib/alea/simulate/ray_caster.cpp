@@ -25,17 +25,22 @@ Cells cells_within(const AngleRange& range, double low_rad, double high_rad) {
           static_cast<std::int64_t>(std::clamp(last, -1.0, count - 1))};
 }
 
+/// Departure of a beam from its nominal direction that is never exceeded (rad).
+double margin_rad(const Scanner& scanner) {
+  return 8 * scanner.noise.angular_noise_rad + scanner.beam_divergence_rad / 2;
+}
+
 }  // namespace
 
 template <typename Object>
 void RayCaster::add(SurfaceKind kind, const std::vector<Object>& objects, const Station& station) {
   const RigidTransform scan_from_scene = station.scene_from_scan.inverse();
   const Scanner& scanner = station.scanner;
-  const double margin_rad = 8 * scanner.noise.angular_noise_rad + scanner.beam_divergence_rad / 2;
   for (std::uint32_t i = 0; i < objects.size(); ++i) {
     const BoundingBall ball = bounding_ball(objects[i]);
-    const AngularWindow window = angular_window(
-        scan_from_scene * ball.centre_m, ball.radius_m + scanner.beam_diameter_m / 2, margin_rad);
+    const AngularWindow window =
+        angular_window(scan_from_scene * ball.centre_m, ball.radius_m + scanner.beam_diameter_m / 2,
+                       margin_rad(scanner));
     const Cells rows = cells_within(station.elevation, window.low_rad, window.high_rad);
     if (rows.first > rows.last) continue;
     // A grid may cross the cut at +-180 deg: try the window one turn to either side as well.
@@ -60,6 +65,13 @@ RayCaster::RayCaster(const Scene& scene, const Station& station) : scene_(scene)
   add(SurfaceKind::sphere, scene.spheres, station);
   add(SurfaceKind::checkerboard, scene.checkerboards, station);
   add(SurfaceKind::mesh, scene.meshes, station);
+  for (const Die& die : scene.dice) {
+    const BoundingBall ball = bounding_ball(die);
+    const double farthest_m =
+        (ball.centre_m - station.scene_from_scan.translation).norm() + ball.radius_m;
+    die_margin_m_.push_back(margin_rad(station.scanner) * farthest_m +
+                            station.scanner.beam_diameter_m / 2);
+  }
 }
 
 std::vector<Candidate> RayCaster::candidates(std::int64_t row) const {
@@ -67,6 +79,16 @@ std::vector<Candidate> RayCaster::candidates(std::int64_t row) const {
   for (const RowWindow& window : windows_)
     if (row >= window.first_row && row <= window.last_row) found.push_back(window.candidate);
   return found;
+}
+
+bool RayCaster::may_hit(const std::vector<Candidate>& candidates, std::int64_t column,
+                        const Ray& nominal) const {
+  for (const Candidate& c : candidates) {
+    if (column < c.first_column || column > c.last_column) continue;
+    if (c.kind != SurfaceKind::die || passes(scene_.dice[c.index], die_margin_m_[c.index], nominal))
+      return true;
+  }
+  return false;
 }
 
 Hit RayCaster::cast(const std::vector<Candidate>& candidates, std::int64_t column,

@@ -80,18 +80,34 @@ class RowScanner {
 
   void scan_row(std::int64_t row, bool with_truth, SimulatedScan& out) const {
     const std::vector<Candidate> candidates = caster_.candidates(row);
-    for (const auto& [first, last] : covered_columns(candidates))
+    for (auto [first, last] : covered_columns(candidates)) {
+      while (first <= last && !may_hit(candidates, row, first)) ++first;
+      while (first <= last && !may_hit(candidates, row, last)) --last;
       for (std::int64_t column = first; column <= last; ++column)
         measure(candidates, row, column, with_truth, out);
+    }
   }
 
  private:
+  /// What the scanner reports of a ray, scan frame.
+  Eigen::Vector3d direction(std::int64_t row, std::int64_t column) const {
+    const Angle a = columns_[column], e = rows_[row];
+    return {e.cosine * a.cosine, e.cosine * a.sine, e.sine};
+  }
+
+  bool may_hit(const std::vector<Candidate>& candidates, std::int64_t row,
+               std::int64_t column) const {
+    const RigidTransform& pose = station_.scene_from_scan;
+    return caster_.may_hit(candidates, column,
+                           {pose.translation, pose.rotation * direction(row, column)});
+  }
+
   void measure(const std::vector<Candidate>& candidates, std::int64_t row, std::int64_t column,
                bool with_truth, SimulatedScan& out) const {
     const Angle a = columns_[column], e = rows_[row];
     const auto number =
         static_cast<std::uint64_t>(row) * columns_.size() + static_cast<std::uint64_t>(column);
-    const Eigen::Vector3d reported(e.cosine * a.cosine, e.cosine * a.sine, e.sine);
+    const Eigen::Vector3d reported = direction(row, column);
     const Eigen::Vector3d to_left(-a.sine, a.cosine, 0);
     const Eigen::Vector3d up(-e.sine * a.cosine, -e.sine * a.sine, e.cosine);
     const Eigen::Vector2d off = noise_.angles_rad(number);

@@ -1,0 +1,99 @@
+#include "experiments/engine/sweep_spec.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "alea/core/error.hpp"
+#include "tests/engine/sweep_files.hpp"
+
+namespace alea::experiments {
+namespace {
+
+using alea::testing::TemporaryFolder;
+using ::testing::HasSubstr;
+using testing::replaced;
+using testing::small_sweep;
+using testing::write_file;
+
+SweepSpec load(const std::string& text, bool smoke = false) {
+  const TemporaryFolder folder;
+  return load_sweep(write_file(folder, text), smoke);
+}
+
+std::string message_of(const std::string& text) {
+  try {
+    load(text);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input);
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(SweepSpec, TheLastAxisRunsFastest) {
+  const SweepSpec spec = load(small_sweep());
+  EXPECT_EQ(spec.cells(), 4u);
+  EXPECT_EQ(spec.units(), 28u);
+  EXPECT_EQ(spec.axis_values(1), (std::vector<SweepValue>{0.5, std::string("parallelepiped")}));
+  EXPECT_EQ(spec.axis_values(2), (std::vector<SweepValue>{2.0, std::string("random")}));
+  EXPECT_EQ(number_of(spec.settings(2), "range_noise_mm"), 2.0);
+  EXPECT_EQ(number_of(spec.settings(2), "edge_m"), 0.5) << "not named, so the default";
+}
+
+TEST(SweepSpec, SmokeHasItsOwnTrialsAndValues) {
+  const std::string text =
+      replaced(small_sweep(), "values = [0.5, 2]", "values = [0.5, 2]\nsmoke_values = [2]");
+  EXPECT_EQ(load(text, true).cells(), 2u);
+  EXPECT_EQ(load(text, true).trials, 2u);
+  EXPECT_EQ(load(text).cells(), 4u);
+}
+
+TEST(SweepSpec, AConfigurationHoldsAllThatDecidesTheRows) {
+  const SweepSpec spec = load(small_sweep());
+  const SweepSpec again = spec_from(configuration_of(spec));
+  EXPECT_EQ(configuration_of(again), configuration_of(spec));
+  for (const auto& [from, to] :
+       std::vector<std::pair<std::string, std::string>>{{"trials = 7", "trials = 8"},
+                                                        {"[0.5, 2]", "[0.5, 2.5]"},
+                                                        {"step_mrad = 10", "step_mrad = 11"},
+                                                        {"\"paper\"]", "\"polar\"]"},
+                                                        {"schema = 1", "schema = 1\nseed = 2"}})
+    EXPECT_NE(configuration_of(load(replaced(small_sweep(), from, to))), configuration_of(spec))
+        << to;
+}
+
+TEST(SweepSpec, SaysWhereAFileIsWrong) {
+  const auto with = [](const std::string& from, const std::string& to) {
+    return message_of(replaced(small_sweep(), from, to));
+  };
+  EXPECT_THAT(with("schema = 1", "schema = 9"), HasSubstr("schema = 9"));
+  EXPECT_THAT(with("\"die\"", "\"dice\""), HasSubstr("one of die, pips, kernel"));
+  EXPECT_THAT(with("\"paper\"", "\"papers\""), HasSubstr("closed_form"));
+  EXPECT_THAT(with("step_mrad = 10", "step_mrad = -1"), HasSubstr(":9: base.step_mrad = -1"));
+  EXPECT_THAT(with("step_mrad = 10", "stepmrad = 10"), HasSubstr("unknown key 'stepmrad'"));
+  EXPECT_THAT(with("[0.5, 2]", "[0.5, 0.5]"), HasSubstr("no value twice"));
+  EXPECT_THAT(with("[0.5, 2]", "[]"), HasSubstr("at least one value"));
+  EXPECT_THAT(with("\"random\", ", "\"randm\", "), HasSubstr("tilt_kind"));
+  EXPECT_THAT(with("trials = 7", "trials = 0"), HasSubstr("trials = 0"));
+  EXPECT_THAT(with("\"tilt_kind\"", "\"range_noise_mm\""), HasSubstr("each once"));
+  EXPECT_THAT(message_of(""), HasSubstr("schema"));
+}
+
+TEST(SweepSpec, EveryCommittedSweepLoadsInBothSizes) {
+  std::size_t count = 0;
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(std::string(ALEA_SOURCE_DIR) + "/experiments"))
+    if (entry.path().extension() == ".toml") {
+      ++count;
+      const SweepSpec full = load_sweep(entry.path(), false);
+      EXPECT_EQ(full.name, entry.path().stem().string());
+      EXPECT_LE(load_sweep(entry.path(), true).units(), 400u) << entry.path();
+      EXPECT_GE(full.trials, 100u) << entry.path();
+    }
+  EXPECT_GE(count, 1u);
+}
+
+}  // namespace
+}  // namespace alea::experiments
