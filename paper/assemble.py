@@ -42,16 +42,18 @@ def rows_of(path):
 
 def latex(text):
     out = ""
-    for c in text:
+    for c in text.replace("<=", "\u2264").replace(">=", "\u2265"):
         out += {"\\": r"\textbackslash{}", "<": "$<$", ">": "$>$", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}",
-                "\u00b0": r"\textdegree{}"}.get(c, "\\" + c if c in "#$%&_{}" else c)
+                "\u00b0": r"\textdegree{}", "\u2264": r"$\le$", "\u2265": r"$\ge$"}.get(c, "\\" + c if c in "#$%&_{}" else c)
     return out
 
 
 def significant(value, digits=3):
     """A number with so many significant digits; very small ones as a power of ten."""
-    if value == 0 or not math.isfinite(value):
-        return f"{value:g}"
+    if not math.isfinite(value):
+        raise ValueError("a number is missing")
+    if value == 0:
+        return "0"
     exponent = math.floor(math.log10(abs(value)) + 1e-9)
     if exponent < -4 or exponent > 5:
         return f"${value / 10 ** exponent:.1f}\\cdot 10^{{{exponent}}}$"
@@ -72,8 +74,11 @@ def write_table(source, work, paper):
     rows = rows_of(source)
     lines = source.with_suffix(".txt").read_text().splitlines()
     title, note = lines[0], lines[1] if len(lines) > 1 else ""
+    if title.startswith("Table "):
+        title = "The paper's " + title
     notes = any(row["note"] for row in rows)
-    widths = [0.17, 0.33, 0.08, 0.22, 0.10] if not notes else [0.13, 0.25, 0.08, 0.18, 0.10, 0.15]
+    first = 0.06 if max(len(row["row"]) for row in rows) < 8 else 0.15
+    widths = [first, 0.48 - first, 0.08, 0.24, 0.12] if not notes else [first, 0.38 - first, 0.08, 0.18, 0.10, 0.17]
     columns = "".join(f">{{\\raggedright\\arraybackslash}}p{{{w}\\linewidth}}" for w in widths)
     head = ["", "quantity", "printed", "ours [central 95\\,\\%]", "verdict"] + (["note"] if notes else [])
     out = [f"{{\\footnotesize\\setlength{{\\tabcolsep}}{{3pt}}\\begin{{longtable}}{{@{{}}{columns}@{{}}}}",
@@ -185,8 +190,8 @@ def die_numbers(die):
 
 
 def program_numbers(results):
-    program = HERE.parent / "build/release/bin/alea"
-    version = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout.split()[-1]
+    project = (HERE.parent / "CMakeLists.txt").read_text()
+    version = project.split("project(alea VERSION ")[1].split()[0]
     commit = subprocess.run(["git", "-C", HERE, "describe", "--always", "--dirty", "--match=nothing"],
                             capture_output=True, text=True).stdout.strip() or "unknown"
     full = (results / "sweeps" / "full").is_dir()

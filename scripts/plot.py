@@ -224,7 +224,7 @@ def series_of(rows, axis, measure, scale):
     return np.array(xs), np.array([rms_with_interval(found[x]) for x in xs]).reshape(len(xs), 3)
 
 
-COLOURS = ["#1b6ca8", "#d1495b", "#3a7d44", "#edae49", "#6a4c93", "#00798c", "#8d5524", "#444444", "#b56576",
+COLOURS = ["#1b6ca8", "#d1495b", "#3a7d44", "#edae49", "#6a4c93", "#e07a1f", "#8d5524", "#444444", "#e377c2",
            "#7f9c3b", "#2a2a72"]
 AXIS_TITLES = {"range_noise_mm": "range noise (mm)", "edge_m": "edge of the die (m)", "range_m": "range (m)",
                "tilt_deg": "facet tilts, sd (deg)", "step_mrad": "angular step (mrad)",
@@ -251,6 +251,22 @@ def draw_bounds(panel, rows, axis, name, scale, done):
                    label=f"bound of {rows[0]['estimator'].replace('_', ' ')}", zorder=1)
 
 
+LINEAR_AXES = ("separation_deg", "edge_radius_mm", "bow_mm")
+
+
+def set_scale(panel, axis, rows):
+    """Logarithmic, about zero linear, or linear."""
+    values = sorted({float(row[axis]) for row in rows})
+    if axis in LINEAR_AXES:
+        return
+    if values[0] > 0:
+        panel.set_xscale("log")
+    else:
+        panel.set_xscale("symlog", linthresh=values[1])
+    panel.set_xticks(values, [f"{value:g}" for value in values])
+    panel.tick_params(axis="x", which="minor", bottom=False, labelbottom=False)
+
+
 def legend_below(figure, panel, columns=4):
     handles, labels = panel.get_legend_handles_labels()
     figure.legend(handles, labels, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncol=columns, fontsize=8)
@@ -273,12 +289,11 @@ def plot_error_curves(rows, path):
                     panel.errorbar(x, rms[:, 0], [rms[:, 0] - rms[:, 1], rms[:, 2] - rms[:, 0]], fmt="o-", ms=3.5,
                                    lw=1, capsize=2, color=COLOURS[k % len(COLOURS)], label=name.replace("_", " "))
                 draw_bounds(panel, of_name, axis, bound, scale, done)
-            if min(float(row[axis]) for row in of_part) > 0:
-                panel.set_xscale("log")
+            set_scale(panel, axis, of_part)
             panel.set_yscale("log")
             panel.set_xlabel(AXIS_TITLES.get(axis, axis))
             panel.set_ylabel(title)
-            panel.grid(alpha=0.3, which="both")
+            panel.grid(alpha=0.3)
             if part:
                 panel.set_title(part, fontsize=9)
     figure.tight_layout()
@@ -327,11 +342,11 @@ def plot_leak(rows, path):
                       for of_tilt in found.values()])
         panel.plot(x, y[:, 0], "o-", ms=4, color=COLOURS[k], label=name.replace("_", " "))
         panel.fill_between(x, y[:, 1], y[:, 2], color=COLOURS[k], alpha=0.08)
-    panel.set_xscale("log")
+    set_scale(panel, "tilt_deg", rows)
     panel.set_yscale("log")
     panel.set_xlabel(AXIS_TITLES["tilt_deg"])
     panel.set_ylabel("rotation error: median and central 95 % (deg)")
-    panel.grid(alpha=0.3, which="both")
+    panel.grid(alpha=0.3)
     figure.tight_layout()
     legend_below(figure, panel)
     save(figure, path)
@@ -365,10 +380,10 @@ def plot_readings(rows, path):
                         label=name.replace("_", " ") + ", right")
             draw_shares(panel, of_name, "range_m", "wrong", fmt="s--", mfc="none", color=COLOURS[k],
                         label="wrong and accepted")
-        panel.set_xscale("log")
+        set_scale(panel, "range_m", of_noise)
         panel.set_title(f"intensity noise over contrast {noise}", fontsize=9)
         panel.set_xlabel(AXIS_TITLES["range_m"])
-        panel.grid(alpha=0.3, which="both")
+        panel.grid(alpha=0.3)
     panels[0][0].set_ylabel("share of trials")
     figure.tight_layout()
     legend_below(figure, panels[0][0])
@@ -386,7 +401,8 @@ def plot_kernels(rows, path):
     for line, (die, of_die) in zip(panels, dice.items()):
         for panel, (name, title) in zip(line, decisions):
             for k, (kernel, of_kernel) in enumerate(groups(of_die, "estimator").items()):
-                draw_shares(panel, of_kernel, "angle_rad", name, fmt="os^"[k] + "-", color=COLOURS[k], label=kernel)
+                draw_shares(panel, of_kernel, "angle_rad", name, fmt="os^"[k] + ("-", ":", "--")[k], color=COLOURS[k],
+                            label=kernel)
             panel.set_xscale("log")
             panel.set_title(f"{die.replace('_', ' ')}: {title}", fontsize=9)
             panel.grid(alpha=0.3)
@@ -413,11 +429,11 @@ def plot_rings(rows, path):
                 panel.errorbar(x, rms[:, 0], [rms[:, 0] - rms[:, 1], rms[:, 2] - rms[:, 0]], fmt=marker, ms=4,
                                capsize=2, color=COLOURS[k], label=f"{name.replace('_', ' ')}, {edge} m die")
             draw_bounds(panel, of_name, "range_m", "bound_ring10_m", 1e3, done)
-    panel.set_xscale("log")
+    set_scale(panel, "range_m", rows)
     panel.set_yscale("log")
     panel.set_xlabel(AXIS_TITLES["range_m"])
     panel.set_ylabel("displacement on a ring of 10 m, RMS (mm)")
-    panel.grid(alpha=0.3, which="both")
+    panel.grid(alpha=0.3)
     figure.tight_layout()
     legend_below(figure, panel, 3)
     save(figure, path)

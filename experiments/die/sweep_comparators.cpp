@@ -36,13 +36,17 @@ Patch patch_about(const Eigen::Vector3d& centre_m, const Eigen::Vector3d& u,
   return patch;
 }
 
-/// Seen by both stations of a quarter turn from their fronts.
+/// An upright patch whose normal looks `heading_deg` from scene +y towards +x.
+Patch wall(const Eigen::Vector3d& centre_m, double heading_deg) {
+  const double heading = heading_deg * degree;
+  return patch_about(centre_m, {-std::cos(heading), std::sin(heading), 0}, Eigen::Vector3d::UnitZ(),
+                     0.8);
+}
+
+/// In front of both stations where these are a quarter turn apart.
 std::vector<Patch> calibration_patches() {
-  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-  return {patch_about({-2.5, 0.3, 1.2}, {0, 1, 0}, up, 0.8),
-          patch_about({0.4, -2.5, 1.1}, {1, 0, 0}, up, 0.8),
-          patch_about({2.3, -1.2, 1.0}, {1, 0.5, 0}, up, 0.8),
-          patch_about({-0.2, 2.5, 0.0}, {1, 0, 0}, {0, 1, 0}, 0.6)};
+  return {wall({-1.5, -2.0, 1.2}, 40), wall({0.4, -2.5, 1.1}, 0), wall({2.0, -1.5, 1.0}, -40),
+          patch_about({-0.2, 2.5, 0.0}, Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), 0.6)};
 }
 
 Station aimed(const SweepSight& sight, int scan, const BoundingBall& ball, std::uint32_t number) {
@@ -149,11 +153,7 @@ Result<RigidTransform> by_planes(const SweepSight& sight) {
     const auto master = fit_one_patch(sight, 0, k), slave = fit_one_patch(sight, 1, k);
     if (!master) return master.refusal();
     if (!slave) return slave.refusal();
-    // A wall between the stations shows each of them another side.
-    const RigidTransform truth =
-        sight.setting.scene_from_scan[0].inverse() * sight.setting.scene_from_scan[1];
-    const bool same = master->plane.normal.dot(truth.rotation * slave->plane.normal) > 0;
-    pairs.push_back({*master, same ? *slave : flipped(*slave)});
+    pairs.push_back({*master, *slave});
   }
   return match_all(pairs,
                    sight.setting.scene_from_scan[0].inverse() * sight.setting.scene_from_scan[1]);

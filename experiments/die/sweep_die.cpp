@@ -39,15 +39,26 @@ double ring10_m(const RigidTransform& error, const Eigen::Vector3d& centre_m) {
   return std::sqrt(sum / places);
 }
 
-using Pair = std::array<ObservedDie, 2>;
+/// The facets of both scans, or why there are none.
+struct Observed {
+  std::array<ObservedDie, 2> dice;
+  std::optional<Refusal> refusal;
+  double duration_s = 0;
+};
 
-Result<Pair> observe_both(const DieCase& setting, const DieScans& scans,
-                          Result<ObservedDie> (*observe)(const DieCase&, const DieScans&, int)) {
-  Result<ObservedDie> master = observe(setting, scans, 0);
-  if (!master) return master.refusal();
-  Result<ObservedDie> slave = observe(setting, scans, 1);
-  if (!slave) return slave.refusal();
-  return Pair{*std::move(master), *std::move(slave)};
+Observed observe_both(const DieCase& setting, const DieScans& scans,
+                      Result<ObservedDie> (*observe)(const DieCase&, const DieScans&, int)) {
+  const double start = cpu_s();
+  Observed out;
+  for (int scan = 0; scan < 2 && !out.refusal; ++scan) {
+    Result<ObservedDie> found = observe(setting, scans, scan);
+    if (found)
+      out.dice[scan] = *std::move(found);
+    else
+      out.refusal = found.refusal();
+  }
+  out.duration_s = cpu_s() - start;
+  return out;
 }
 
 class DieCell : public SweepCell {
@@ -65,38 +76,28 @@ class DieCell : public SweepCell {
   std::vector<TrialRow> run(std::uint64_t trial) const override {
     const double start = cpu_s();
     const DieScans scans = needs_facets_ ? scan_die(setting_, seed_, trial) : DieScans{};
-    std::optional<Refusal> refusal;
-    Pair facets;
-    if (needs_facets_) {
-      Result<Pair> found = observe_both(setting_, scans, observe_facets);
-      if (found)
-        facets = *std::move(found);
-      else
-        refusal = found.refusal();
-    }
-    const double shared_s = cpu_s() - start;
-    std::optional<Pair> paper;
-    std::optional<Refusal> paper_refusal;
-    if (needs_paper_) {
-      Result<Pair> found = observe_both(setting_, scans, observe_as_paper);
-      if (found)
-        paper = *std::move(found);
-      else
-        paper_refusal = found.refusal();
-    }
-    const double paper_s = cpu_s() - start - shared_s;
-    const SweepSight sight{setting_, scans, facets, paper, seed_, trial};
+    Observed facets, paper;
+    if (needs_facets_) facets = observe_both(setting_, scans, observe_facets);
+    facets.duration_s = cpu_s() - start;  // the simulation is theirs
+    if (needs_paper_) paper = observe_both(setting_, scans, observe_as_paper);
+    const SweepSight sight{setting_, scans, facets.dice, paper.dice, seed_, trial};
     std::vector<TrialRow> rows;
     for (std::size_t e = 0; e < estimators_.size(); ++e) {
       const SweepEstimator& estimator = *estimators_[e];
       const double begin = cpu_s();
-      const Result<RigidTransform> found =
-          estimator.needs_facets && refusal               ? Result<RigidTransform>(*refusal)
-          : estimator.needs_paper_facets && paper_refusal ? Result<RigidTransform>(*paper_refusal)
-                                                          : estimator.estimate(sight);
-      rows.push_back(row_of(e, found));
-      rows.back().duration_s = cpu_s() - begin + (estimator.needs_facets ? shared_s : 0) +
-                               (estimator.needs_paper_facets ? paper_s : 0);
+      double shared_s = 0;
+      std::optional<Refusal> refusal;
+      if (estimator.needs_facets) {
+        shared_s += facets.duration_s;
+        refusal = facets.refusal;
+      }
+      if (estimator.needs_paper_facets) {
+        shared_s += paper.duration_s;
+        if (!refusal) refusal = paper.refusal;
+      }
+      rows.push_back(
+          row_of(e, refusal ? Result<RigidTransform>(*refusal) : estimator.estimate(sight)));
+      rows.back().duration_s = cpu_s() - begin + shared_s;
     }
     return rows;
   }

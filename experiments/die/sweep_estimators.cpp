@@ -94,11 +94,11 @@ Result<RigidTransform> by_rule(const SweepSight& sight) {
 }
 
 Result<RigidTransform> by_paper(const SweepSight& sight) {
-  return by_axes(*sight.paper_facets, given_edge_m(sight), FrameRule::fix_z);
+  return by_axes(sight.paper_facets, given_edge_m(sight), FrameRule::fix_z);
 }
 
 Result<RigidTransform> by_paper_literal(const SweepSight& sight) {
-  return by_axes(*sight.paper_facets, given_edge_m(sight), FrameRule::fix_z,
+  return by_axes(sight.paper_facets, given_edge_m(sight), FrameRule::fix_z,
                  PrintedErrors::as_printed());
 }
 

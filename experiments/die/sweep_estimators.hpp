@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,9 +12,9 @@ namespace alea::experiments::die {
 struct SweepSight {
   const DieCase& setting;
   const DieScans& scans;
-  /// Facets as the case extracts them, and as the paper does; each asked for at most once a trial.
+  /// Facets as the case extracts them, and as the paper does; for estimators that need them.
   const std::array<ObservedDie, 2>& facets;
-  const std::optional<std::array<ObservedDie, 2>>& paper_facets;
+  const std::array<ObservedDie, 2>& paper_facets;
   std::uint64_t seed = 1, trial = 0;
 };
 

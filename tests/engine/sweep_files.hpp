@@ -8,7 +8,7 @@
 
 namespace alea::experiments::testing {
 
-/// A sweep of the die that takes milliseconds: 2 x 2 cells, 110 points a scan.
+/// A sweep of the die that takes milliseconds: 2 x 2 cells, 450 points a scan.
 inline std::string small_sweep() {
   return R"(schema = 1
 name = "small"
@@ -18,7 +18,7 @@ trials = 7
 smoke_trials = 2
 
 [base]
-step_mrad = 10
+step_mrad = 5
 
 [[axis]]
 name = "range_noise_mm"

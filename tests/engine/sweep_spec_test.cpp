@@ -57,7 +57,7 @@ TEST(SweepSpec, AConfigurationHoldsAllThatDecidesTheRows) {
   for (const auto& [from, to] :
        std::vector<std::pair<std::string, std::string>>{{"trials = 7", "trials = 8"},
                                                         {"[0.5, 2]", "[0.5, 2.5]"},
-                                                        {"step_mrad = 10", "step_mrad = 11"},
+                                                        {"step_mrad = 5", "step_mrad = 6"},
                                                         {"\"paper\"]", "\"polar\"]"},
                                                         {"schema = 1", "schema = 1\nseed = 2"}})
     EXPECT_NE(configuration_of(load(replaced(small_sweep(), from, to))), configuration_of(spec))
@@ -71,14 +71,15 @@ TEST(SweepSpec, SaysWhereAFileIsWrong) {
   EXPECT_THAT(with("schema = 1", "schema = 9"), HasSubstr("schema = 9"));
   EXPECT_THAT(with("\"die\"", "\"dice\""), HasSubstr("one of die, pips, kernel"));
   EXPECT_THAT(with("\"paper\"", "\"papers\""), HasSubstr("closed_form"));
-  EXPECT_THAT(with("step_mrad = 10", "step_mrad = -1"), HasSubstr(":9: base.step_mrad = -1"));
-  EXPECT_THAT(with("step_mrad = 10", "stepmrad = 10"), HasSubstr("unknown key 'stepmrad'"));
+  EXPECT_THAT(with("step_mrad = 5", "step_mrad = -1"), HasSubstr(":9: base.step_mrad = -1"));
+  EXPECT_THAT(with("step_mrad = 5", "stepmrad = 5"), HasSubstr("unknown key 'stepmrad'"));
   EXPECT_THAT(with("[0.5, 2]", "[0.5, 0.5]"), HasSubstr("no value twice"));
   EXPECT_THAT(with("[0.5, 2]", "[]"), HasSubstr("at least one value"));
-  EXPECT_THAT(with("\"random\", ", "\"randm\", "), HasSubstr("tilt_kind"));
+  EXPECT_THAT(with("\"random\", ", "\"randm\", "), HasSubstr(":17: axis.values"));
   EXPECT_THAT(with("trials = 7", "trials = 0"), HasSubstr("trials = 0"));
   EXPECT_THAT(with("\"tilt_kind\"", "\"range_noise_mm\""), HasSubstr("each once"));
-  EXPECT_THAT(message_of(""), HasSubstr("schema"));
+  EXPECT_THAT(message_of(""), HasSubstr("non-empty"));
+  EXPECT_THAT(message_of("name = \"x\""), HasSubstr("schema"));
 }
 
 TEST(SweepSpec, EveryCommittedSweepLoadsInBothSizes) {

@@ -98,7 +98,8 @@ TEST(TrialStore, ReportsARowThatWasChangedOrTakenAway) {
         "UPDATE trials SET trial = 8 WHERE trial = 3", "DELETE FROM trials WHERE trial = 3",
         "DELETE FROM trials WHERE estimator = 'paper' AND trial = 2", "DELETE FROM cells",
         "UPDATE cells SET digest = digest + 1",
-        "UPDATE store SET value = replace(value, '10.0', '11.0') WHERE key = 'configuration'",
+        "UPDATE store SET value = replace(value, '\"step_mrad\":5.0', '\"step_mrad\":6.0') WHERE "
+        "key = 'configuration'",
         "DROP TABLE trials"}) {
     const TemporaryFolder folder;
     fill(folder.path());
