@@ -151,7 +151,7 @@ std::vector<std::string> questions_of_the_page() {
   for (std::size_t at = page.find("```sh\n"); at != std::string::npos;
        at = page.find("```sh\n", at + 1)) {
     const std::size_t begin = at + 6;
-    blocks.push_back(page.substr(begin, page.find("```", begin) - begin));
+    blocks.push_back(page.substr(begin, page.find("\n```", begin) - begin));
   }
   return blocks;
 }
