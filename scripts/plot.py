@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""plot.py DIR: draws a picture (PNG and PDF) from every CSV file in DIR that it knows.
+"""plot.py DIR: draws a picture (PNG and PDF) from every CSV file in DIR that it knows: figure data of `alea
+reproduce`, rows of `alea sweep export` named after their sweep.
 
 One function for each kind of figure; the numbers come from the program alone. Needs Debian's
 python3-matplotlib (scripts/setup figures), which serves /usr/bin/python3.
@@ -205,6 +206,257 @@ def plot_registered(rows, path):
     save(figure, path)
 
 
+def number(row, name):
+    return float(row[name]) if row.get(name) else np.nan
+
+
+def registered(rows):
+    return [row for row in rows if row["verdict"] == "registered"]
+
+
+def rms_with_interval(values):
+    """Root mean square and its 95 % interval from the spread of the squares."""
+    squares = np.square(values)
+    mean, half = squares.mean(), 1.96 * squares.std() / np.sqrt(max(1, len(squares)))
+    return np.sqrt(mean), np.sqrt(max(0.0, mean - half)), np.sqrt(mean + half)
+
+
+def axis_columns(rows):
+    """The axes of a sweep: the columns between the estimator and the first error."""
+    names = list(rows[0])
+    return names[names.index("estimator") + 1:names.index("rotation_error_rad")]
+
+
+def series_of(rows, axis, measure, scale):
+    """x, RMS, low, high over the numeric values of an axis."""
+    found = {}
+    for row in registered(rows):
+        if np.isfinite(number(row, measure)):
+            found.setdefault(float(row[axis]), []).append(scale * number(row, measure))
+    xs = sorted(x for x in found if len(found[x]) > 1)
+    return np.array(xs), np.array([rms_with_interval(found[x]) for x in xs]).reshape(len(xs), 3)
+
+
+COLOURS = ["#1b6ca8", "#d1495b", "#3a7d44", "#edae49", "#6a4c93", "#e07a1f", "#8d5524", "#444444", "#e377c2",
+           "#7f9c3b", "#2a2a72"]
+AXIS_TITLES = {"range_noise_mm": "range noise (mm)", "edge_m": "edge of the die (m)", "range_m": "range (m)",
+               "tilt_deg": "facet tilts, sd (deg)", "step_mrad": "angular step (mrad)",
+               "separation_deg": "station separation (deg)", "edge_radius_mm": "edge radius (mm)",
+               "bow_mm": "bow of the facets (mm)", "trim_mm": "trim (mm)", "extraction": "facets found by",
+               "angle_rad": "nearness to parallel or coplanar (rad)"}
+DEGREE = 180 / np.pi
+MEASURES = [("rotation_error_rad", "bound_rotation_rad", DEGREE, "rotation error, RMS (deg)"),
+            ("translation_error_m", "bound_translation_m", 1e3, "translation error at the die, RMS (mm)"),
+            ("check_error_m", "bound_check_m", 1e3, "offset at check planes, RMS (mm)")]
+
+
+def draw_bounds(panel, rows, axis, name, scale, done):
+    """The bound of these rows as a line, once for each different one."""
+    xs = sorted({float(row[axis]) for row in rows if np.isfinite(number(row, name))})
+    ys = []
+    for x in xs:
+        ys.append(scale * next(number(row, name) for row in rows
+                               if float(row[axis]) == x and np.isfinite(number(row, name))))
+    key = tuple(np.round(ys, 12))
+    if xs and key not in done:
+        done.add(key)
+        panel.plot(xs, ys, color="0.35", ls=[":", "--", "-.", (0, (1, 3))][(len(done) - 1) % 4], lw=1.2,
+                   label=f"bound of {rows[0]['estimator'].replace('_', ' ')}", zorder=1)
+
+
+LINEAR_AXES = ("separation_deg", "edge_radius_mm", "bow_mm")
+
+
+def set_scale(panel, axis, rows):
+    """Logarithmic, about zero linear, or linear."""
+    values = sorted({float(row[axis]) for row in rows})
+    if axis in LINEAR_AXES:
+        return
+    if values[0] > 0:
+        panel.set_xscale("log")
+    else:
+        panel.set_xscale("symlog", linthresh=values[1])
+    panel.set_xticks(values, [f"{value:g}" for value in values])
+    panel.tick_params(axis="x", which="minor", bottom=False, labelbottom=False)
+
+
+def legend_below(figure, panel, columns=4):
+    handles, labels = panel.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncol=columns, fontsize=8)
+
+
+def plot_error_curves(rows, path):
+    """Errors against a numeric axis: RMS with 95 % intervals for each estimator, the bound as a line. Further axes
+    of the sweep share the panels in rows."""
+    axis, others = axis_columns(rows)[0], axis_columns(rows)[1:]
+    parts = {}
+    for row in rows:
+        parts.setdefault(", ".join(f"{AXIS_TITLES.get(o, o)} {row[o]}" for o in others), []).append(row)
+    figure, panels = plt.subplots(len(parts), 3, figsize=(14, 3.9 * len(parts)), squeeze=False)
+    for line, (part, of_part) in zip(panels, parts.items()):
+        for panel, (measure, bound, scale, title) in zip(line, MEASURES):
+            done = set()
+            for k, (name, of_name) in enumerate(groups(of_part, "estimator").items()):
+                x, rms = series_of(of_name, axis, measure, scale)
+                if len(x):
+                    panel.errorbar(x, rms[:, 0], [rms[:, 0] - rms[:, 1], rms[:, 2] - rms[:, 0]], fmt="o-", ms=3.5,
+                                   lw=1, capsize=2, color=COLOURS[k % len(COLOURS)], label=name.replace("_", " "))
+                draw_bounds(panel, of_name, axis, bound, scale, done)
+            set_scale(panel, axis, of_part)
+            panel.set_yscale("log")
+            panel.set_xlabel(AXIS_TITLES.get(axis, axis))
+            panel.set_ylabel(title)
+            panel.grid(alpha=0.3)
+            if part:
+                panel.set_title(part, fontsize=9)
+    figure.tight_layout()
+    legend_below(figure, panels[0][0], 6)
+    save(figure, path)
+
+
+def plot_error_bars(rows, path):
+    """Errors by the values of the axes that are words: RMS with 95 % intervals, the bound as a dash."""
+    axes = axis_columns(rows)
+    figure, panels = plt.subplots(1, 3, figsize=(15, 4.4))
+    names = list(groups(rows, "estimator"))
+    cells = {}
+    for row in rows:
+        cells.setdefault("\n".join(row[axis].replace("_", " ") for axis in axes), []).append(row)
+    for panel, (measure, bound, scale, title) in zip(panels, MEASURES):
+        for c, of_cell in enumerate(cells.values()):
+            for k, (name, of_name) in enumerate(groups(of_cell, "estimator").items()):
+                at = c + 0.8 * ((k + 0.5) / len(names) - 0.5)
+                values = [scale * number(row, measure) for row in registered(of_name)]
+                if len(values) > 1:
+                    rms, low, high = rms_with_interval(values)
+                    panel.errorbar([at], [rms], [[rms - low], [high - rms]], fmt="o", ms=4, capsize=2,
+                                   color=COLOURS[names.index(name) % len(COLOURS)],
+                                   label=name.replace("_", " ") if c == 0 else None)
+                limit = scale * number(of_name[0], bound)
+                if np.isfinite(limit):
+                    panel.plot([at - 0.3 / len(names), at + 0.3 / len(names)], [limit, limit], color="0.3", lw=1.6,
+                               label="bound" if c == 0 and k == 0 else None)
+        panel.set_yscale("log")
+        panel.set_xticks(range(len(cells)), list(cells), fontsize=7)
+        panel.set_ylabel(title)
+        panel.grid(alpha=0.3, axis="y", which="both")
+    figure.tight_layout()
+    legend_below(figure, panels[0], 6)
+    save(figure, path)
+
+
+def plot_leak(rows, path):
+    """What rules leak of a die's tilts: median rotation with its central 95 %, nothing else being wrong."""
+    figure, panel = plt.subplots(figsize=(7, 4.8))
+    for k, (name, of_name) in enumerate(groups(rows, "estimator").items()):
+        found = groups(registered(of_name), "tilt_deg")
+        x = np.array([float(tilt) for tilt in found])
+        y = np.array([np.percentile([DEGREE * number(row, "rotation_error_rad") for row in of_tilt], [50, 2.5, 97.5])
+                      for of_tilt in found.values()])
+        panel.plot(x, y[:, 0], "o-", ms=4, color=COLOURS[k], label=name.replace("_", " "))
+        panel.fill_between(x, y[:, 1], y[:, 2], color=COLOURS[k], alpha=0.08)
+    set_scale(panel, "tilt_deg", rows)
+    panel.set_yscale("log")
+    panel.set_xlabel(AXIS_TITLES["tilt_deg"])
+    panel.set_ylabel("rotation error: median and central 95 % (deg)")
+    panel.grid(alpha=0.3)
+    figure.tight_layout()
+    legend_below(figure, panel)
+    save(figure, path)
+
+
+def share_with_interval(hits, n):
+    """Wilson's 95 % interval of a share."""
+    z, p = 1.96, hits / n
+    centre = (p + z * z / (2 * n)) / (1 + z * z / n)
+    half = z / (1 + z * z / n) * np.sqrt(p * (1 - p) / n + z * z / (4 * n * n))
+    return p, min(p, centre - half), max(p, centre + half)
+
+
+def draw_shares(panel, rows, axis, name, **style):
+    """Share of rows in which a column is 1, with its interval, along a numeric axis."""
+    found = groups(rows, axis)
+    x = np.array([float(value) for value in found])
+    y = np.array([share_with_interval(sum(number(row, name) for row in of), len(of)) for of in found.values()])
+    order = np.argsort(x)
+    panel.errorbar(x[order], y[order, 0], [(y[:, 0] - y[:, 1])[order], (y[:, 2] - y[:, 0])[order]], ms=3.5, lw=1,
+                   capsize=2, **style)
+
+
+def plot_readings(rows, path):
+    """Pips read rightly (full) and wrongly accepted (hollow) against the range."""
+    parts = groups(rows, "noise_over_contrast")
+    figure, panels = plt.subplots(1, len(parts), figsize=(6 * len(parts), 4.2), sharey=True, squeeze=False)
+    for panel, (noise, of_noise) in zip(panels[0], parts.items()):
+        for k, (name, of_name) in enumerate(groups(of_noise, "estimator").items()):
+            draw_shares(panel, of_name, "range_m", "right", fmt="o-", color=COLOURS[k],
+                        label=name.replace("_", " ") + ", right")
+            draw_shares(panel, of_name, "range_m", "wrong", fmt="s--", mfc="none", color=COLOURS[k],
+                        label="wrong and accepted")
+        set_scale(panel, "range_m", of_noise)
+        panel.set_title(f"intensity noise over contrast {noise}", fontsize=9)
+        panel.set_xlabel(AXIS_TITLES["range_m"])
+        panel.grid(alpha=0.3)
+    panels[0][0].set_ylabel("share of trials")
+    figure.tight_layout()
+    legend_below(figure, panels[0][0])
+    save(figure, path)
+
+
+def plot_kernels(rows, path):
+    """Wrong decisions of three kernels against how degenerate the die is, one row of panels for each kind of die."""
+    decisions = [("wrong_orientation", "orientation wrong"), ("wrong_chirality", "chirality wrong"),
+                 ("wrong_adjacency", "adjacency wrong"), ("wrong_closure", "closure wrong"),
+                 ("corner_on_planes", "corner on its planes")]
+    dice = groups(rows, "die")
+    figure, panels = plt.subplots(len(dice), len(decisions), figsize=(17, 3.2 * len(dice)), sharex=True, sharey=True,
+                                  squeeze=False)
+    for line, (die, of_die) in zip(panels, dice.items()):
+        for panel, (name, title) in zip(line, decisions):
+            for k, (kernel, of_kernel) in enumerate(groups(of_die, "estimator").items()):
+                draw_shares(panel, of_kernel, "angle_rad", name, fmt="os^"[k] + ("-", ":", "--")[k], color=COLOURS[k],
+                            label=kernel)
+            panel.set_xscale("log")
+            panel.set_title(f"{die.replace('_', ' ')}: {title}", fontsize=9)
+            panel.grid(alpha=0.3)
+        line[0].set_ylabel("share of trials")
+    for panel in panels[-1]:
+        panel.set_xlabel("nearness (rad)")
+    figure.tight_layout()
+    legend_below(figure, panels[0][0])
+    save(figure, path)
+
+
+def plot_rings(rows, path):
+    """Effective range: displacement on a ring of 10 m against the range, the bound as a line, the ranges that the
+    paper claims as vertical lines (it names no accuracy)."""
+    figure, panel = plt.subplots(figsize=(7.2, 4.8))
+    claims = {claim["edge_m"]: float(claim["range_m"]) for claim in published_ranges()}
+    for k, (edge, of_edge) in enumerate(groups(rows, "edge_m").items()):
+        done = set()
+        if edge in claims:
+            panel.axvline(claims[edge], color=COLOURS[k], lw=0.8, ls=(0, (6, 3)), label=f"paper: {edge} m die")
+        for (name, of_name), marker in zip(groups(of_edge, "estimator").items(), "os^v"):
+            x, rms = series_of(of_name, "range_m", "ring10_error_m", 1e3)
+            if len(x):
+                panel.errorbar(x, rms[:, 0], [rms[:, 0] - rms[:, 1], rms[:, 2] - rms[:, 0]], fmt=marker, ms=4,
+                               capsize=2, color=COLOURS[k], label=f"{name.replace('_', ' ')}, {edge} m die")
+            draw_bounds(panel, of_name, "range_m", "bound_ring10_m", 1e3, done)
+    set_scale(panel, "range_m", rows)
+    panel.set_yscale("log")
+    panel.set_xlabel(AXIS_TITLES["range_m"])
+    panel.set_ylabel("displacement on a ring of 10 m, RMS (mm)")
+    panel.grid(alpha=0.3)
+    figure.tight_layout()
+    legend_below(figure, panel, 3)
+    save(figure, path)
+
+
+def published_ranges():
+    source = pathlib.Path(__file__).resolve().parent.parent / "experiments/die/published/effective_range.csv"
+    return rows_of(source)
+
+
 KINDS = {
     "figure5": plot_extraction,
     "figure6": plot_pips,
@@ -213,6 +465,22 @@ KINDS = {
     "figure9": plot_axes,
     "figure10": plot_calibration,
     "table7": plot_registered,
+    "range_noise": plot_error_curves,
+    "die_edge": plot_error_curves,
+    "range": plot_error_curves,
+    "effective_range": plot_rings,
+    "squareness": plot_error_curves,
+    "leak": plot_leak,
+    "angular_step": plot_error_curves,
+    "separation": plot_error_curves,
+    "edge_radius": plot_error_curves,
+    "warp": plot_error_curves,
+    "detector": plot_error_bars,
+    "fit_domain": plot_error_bars,
+    "frame_rule": plot_error_bars,
+    "estimator": plot_error_curves,
+    "pip_reader": plot_readings,
+    "kernel": plot_kernels,
 }
 
 
