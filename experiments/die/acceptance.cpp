@@ -16,6 +16,8 @@ std::vector<Topic> die_topics() {
       {"bound", "ranges", "range at which the 10 m ring reaches 2.5 mm at 0.3 mrad",
        run_bound_ranges},
       {"bound", "ranks", "directions that a set of stations leaves open", run_bound_ranks},
+      {"bound", "adjustment", "adjustment against its bound, shape known and free; its covariance",
+       run_adjustment_topic},
       {"die", "pips", "pips read by the counting chain and by likelihood, against the range",
        run_pips},
       {"die", "spheres", "registration by six spheres against its bound, 0.3 mrad", run_spheres},

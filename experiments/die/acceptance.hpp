@@ -15,6 +15,8 @@ void run_bound_tables(const Options& options, const Report& report);
 /// Issue bound, lines 2 and 3.
 void run_bound_ranges(const Options& options, const Report& report);
 void run_bound_ranks(const Options& options, const Report& report);
+/// Issue bound, lines 1 and 4: the adjustment against the bound, its covariance, its bias.
+void run_adjustment_topic(const Options& options, const Report& report);
 /// Issue die, line 10: registration by six spheres against its bound.
 void run_spheres(const Options& options, const Report& report);
 /// Issue die, line 7: the counting chain and the likelihood reader on simulated facets.

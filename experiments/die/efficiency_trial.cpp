@@ -94,35 +94,47 @@ ScanResult observe(const Scene& scene, const EfficiencyCase& setting,
 
 }  // namespace
 
-EfficiencyTrial run_efficiency_trial(const EfficiencyCase& setting, std::uint64_t seed,
-                                     std::uint64_t trial) {
+ObservedPair observe_pair(const EfficiencyCase& setting, std::uint64_t seed, std::uint64_t trial) {
   const Die die = draw_die(setting, seed, trial);
   const auto poses = station_poses(setting);
   Scene scene;
   scene.dice.push_back(die);
   const ScanResult master = observe(scene, setting, poses[0], {seed, experiment_number, trial, 0});
   const ScanResult slave = observe(scene, setting, poses[1], {seed, experiment_number, trial, 1});
-
-  EfficiencyTrial out;
-  const auto shared = shared_pips(master.die, slave.die);
+  ObservedPair out;
+  out.master = master.die;
+  out.slave = slave.die;
+  for (int f = 0; f < 6; ++f) out.shape.facets[f] = die.body.planes[f];
   const RigidTransform scan_from_scene = poses[0].inverse();
-  const Eigen::Vector3d centre = scan_from_scene * Eigen::Vector3d(0, 0, setting.edge_m / 2);
+  out.master_from_slave = scan_from_scene * poses[1];
+  out.centre_m = scan_from_scene * Eigen::Vector3d(0, 0, setting.edge_m / 2);
+  const auto shared = shared_pips(master.die, slave.die);
+  out.shared_edge_m = edge_length_m(die.body, shared.at(0), shared.at(1));
+  out.top_tilt_rad = (master.top_tilt_rad + slave.top_tilt_rad) / 2;
+  return out;
+}
+
+EfficiencyTrial run_efficiency_trial(const EfficiencyCase& setting, std::uint64_t seed,
+                                     std::uint64_t trial) {
+  const ObservedPair pair = observe_pair(setting, seed, trial);
+  EfficiencyTrial out;
   ClosedFormOptions options;
-  options.edge_m = edge_length_m(die.body, shared.at(0), shared.at(1));
-  options.covariance_about_m = centre;
-  const auto found = register_closed_form(master.die, slave.die, options);
+  options.edge_m = pair.shared_edge_m;
+  options.covariance_about_m = pair.centre_m;
+  const auto found = register_closed_form(pair.master, pair.slave, options);
   out.refused = !found;
   if (!found) return out;
-  const RigidTransform truth = scan_from_scene * poses[1];
-  const Vector6d error = left_difference(truth, found->master_from_slave, centre);
+  const RigidTransform& truth = pair.master_from_slave;
+  const Vector6d error = left_difference(truth, found->master_from_slave, pair.centre_m);
   out.rotation_rad = error.head<3>().norm();
-  out.translation_m = (found->master_from_slave * (truth.inverse() * centre) - centre).norm();
+  out.translation_m =
+      (found->master_from_slave * (truth.inverse() * pair.centre_m) - pair.centre_m).norm();
   out.nees = error.dot(found->covariance.covariance.ldlt().solve(error));
   out.misclosure_chi_square = found->misclosure_chi_square;
-  out.top_tilt_rad = (master.top_tilt_rad + slave.top_tilt_rad) / 2;
+  out.top_tilt_rad = pair.top_tilt_rad;
   out.least_variance_factor = 1e300;
-  for (const ScanResult* scan : {&master, &slave})
-    for (const ObservedFacet& facet : scan->die.facets) {
+  for (const ObservedDie* die : {&pair.master, &pair.slave})
+    for (const ObservedFacet& facet : die->facets) {
       out.least_variance_factor = std::min(out.least_variance_factor, facet.fit.variance_factor);
       out.largest_variance_factor =
           std::max(out.largest_variance_factor, facet.fit.variance_factor);

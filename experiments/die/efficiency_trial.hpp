@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "alea/core/rigid_transform.hpp"
+#include "alea/die/die_shape.hpp"
+#include "alea/die/observed_die.hpp"
 #include "alea/facet/plane_fit.hpp"
 
 namespace alea::experiments::die {
@@ -32,6 +34,20 @@ struct EfficiencyTrial {
   /// Smallest variance factor of the six fits and the largest.
   double least_variance_factor = 0, largest_variance_factor = 0;
 };
+
+/// Both scans of a trial, observed, and the truth behind them.
+struct ObservedPair {
+  ObservedDie master, slave;
+  DieShape shape;                                      ///< scene frame
+  RigidTransform master_from_slave;                    ///< the truth
+  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();  ///< of the die, master frame
+  double shared_edge_m = 0;
+  double top_tilt_rad = 0;  ///< see EfficiencyTrial
+};
+
+/// Simulates both scans of the die alone and fits its facets; the facets' points are sorted by
+/// their rays. The same seed and trial give the same bits.
+ObservedPair observe_pair(const EfficiencyCase& setting, std::uint64_t seed, std::uint64_t trial);
 
 /// Simulates both scans, sorts the points to facets by their reported rays (the facet that a ray
 /// meets last is where it enters a convex body), fits and registers with the exact edge. The same
