@@ -56,12 +56,23 @@ int facet_met(const Eigen::Vector3d& p, const std::array<Plane, 3>& planes) {
   return facet;
 }
 
-std::array<PlaneFit, 3> fit_by_rays(const Cloud& cloud, const std::array<Plane, 3>& planes,
-                                    const PlaneFitOptions& options) {
+std::array<std::vector<Eigen::Vector3d>, 3> members_by_rays(const Cloud& cloud,
+                                                            const std::array<Plane, 3>& planes) {
   std::array<std::vector<Eigen::Vector3d>, 3> members;
+  for (auto& facet : members) facet.reserve(cloud.size());
   for (const Eigen::Vector3d& p : cloud.positions) members[facet_met(p, planes)].push_back(p);
-  return {fit_plane(members[0], options), fit_plane(members[1], options),
-          fit_plane(members[2], options)};
+  return members;
+}
+
+/// First planes from members that know the truth, then fits to members by what was measured alone.
+std::array<PlaneFit, 3> fit_by_rays(const Cloud& cloud, const std::array<Plane, 3>& truth,
+                                    const PlaneFitOptions& options) {
+  const auto first_members = members_by_rays(cloud, truth);
+  std::array<Plane, 3> first;
+  for (int k = 0; k < 3; ++k) first[k] = improve_plane(first_members[k], truth[k], options);
+  const auto members = members_by_rays(cloud, first);
+  return {fit_plane(members[0], first[0], options), fit_plane(members[1], first[1], options),
+          fit_plane(members[2], first[2], options)};
 }
 
 struct ScanResult {
@@ -79,9 +90,7 @@ ScanResult observe(const Scene& scene, const EfficiencyCase& setting,
   const ObservedDie truth = seen_truth(scene.dice[0], scene_from_scan);
   PlaneFitOptions options;
   options.method = setting.fit;
-  // First planes that know the truth, then members by what was measured alone.
-  const auto first = fit_by_rays(cloud, planes_of(truth), options);
-  const auto fits = fit_by_rays(cloud, {first[0].plane, first[1].plane, first[2].plane}, options);
+  const auto fits = fit_by_rays(cloud, planes_of(truth), options);
   ScanResult result{truth, 0};
   for (int k = 0; k < 3; ++k) result.die.facets[k].fit = fits[k];
   // The upper facet has one pip, so it comes first.
