@@ -6,8 +6,8 @@
 
 #include "alea/core/error.hpp"
 #include "alea/core/seed.hpp"
-#include "alea/die/exact_predicates.hpp"
 #include "alea/die/ideal_observation.hpp"
+#include "alea/plane/exact_predicates.hpp"
 
 namespace alea {
 namespace {

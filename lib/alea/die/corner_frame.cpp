@@ -4,8 +4,8 @@
 
 #include "alea/core/error.hpp"
 #include "alea/die/assembly.hpp"
-#include "alea/die/exact_predicates.hpp"
 #include "alea/die/hand.hpp"
+#include "alea/plane/exact_predicates.hpp"
 
 namespace alea {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "alea/core/error.hpp"
-#include "alea/die/exact_predicates.hpp"
+#include "alea/plane/exact_predicates.hpp"
 
 namespace alea {
 namespace {

@@ -84,6 +84,39 @@ void intersect(const Box& box, std::uint32_t index, const Ray& ray, Hit& hit) {
          {SurfaceKind::box, index, static_cast<std::uint8_t>(2 * axis + (side > 0 ? 2 : 1))}};
 }
 
+namespace {
+
+/// A ray in the frame of an axis: along it, and across it.
+struct AxisRay {
+  Eigen::Vector3d axis, across, off;  ///< unit axis; parts of direction and origin across it
+  double length, slope, height;
+};
+
+/// The mantle of a frustum: |off + t across| = r0 + k (height + t slope), entered from outside.
+void intersect_frustum(const Cylinder& cylinder, std::uint32_t index, const AxisRay& ray,
+                       Hit& hit) {
+  const double k = (*cylinder.top_radius_m - cylinder.radius_m) / ray.length;
+  const double radius_here = cylinder.radius_m + k * ray.height;
+  const double a = ray.across.squaredNorm() - k * k * ray.slope * ray.slope;
+  const double b = ray.off.dot(ray.across) - k * ray.slope * radius_here;
+  const double c = ray.off.squaredNorm() - radius_here * radius_here;
+  const double discriminant = b * b - a * c;
+  if (a == 0 || discriminant < 0) return;
+  for (const double sign : {-1.0, 1.0}) {
+    const double range = (-b + sign * std::sqrt(discriminant)) / a;
+    const double at = ray.height + range * ray.slope;
+    if (at < 0 || at > ray.length || !nearer(range, hit)) continue;
+    const Eigen::Vector3d radial = (ray.off + range * ray.across).normalized();
+    if (radial.dot(ray.across) - k * ray.slope >= 0) continue;  // leaves the body here
+    hit = {range,
+           (radial - k * ray.axis).normalized(),
+           cylinder.intensity,
+           {SurfaceKind::cylinder, index, 0}};
+  }
+}
+
+}  // namespace
+
 void intersect(const Cylinder& cylinder, std::uint32_t index, const Ray& ray, Hit& hit) {
   const double length = cylinder.axis_m.norm();
   const Eigen::Vector3d axis = cylinder.axis_m / length;
@@ -93,7 +126,9 @@ void intersect(const Cylinder& cylinder, std::uint32_t index, const Ray& ray, Hi
   const Eigen::Vector3d off = from - height * axis;
   const double radius_squared = cylinder.radius_m * cylinder.radius_m;
   const double a = across.squaredNorm();
-  if (a > 0) {
+  if (cylinder.top_radius_m) {
+    intersect_frustum(cylinder, index, {axis, across, off, length, slope, height}, hit);
+  } else if (a > 0) {
     const double nearest = -off.dot(across) / a;
     const double half_squared = (radius_squared - (off + nearest * across).squaredNorm()) / a;
     if (half_squared < 0) return;
@@ -108,7 +143,9 @@ void intersect(const Cylinder& cylinder, std::uint32_t index, const Ray& ray, Hi
   if (slope == 0) return;
   const bool enters_base = slope > 0;
   const double range = ((enters_base ? 0 : length) - height) / slope;
-  if (nearer(range, hit) && (off + range * across).squaredNorm() <= radius_squared)
+  const double end_radius =
+      enters_base ? cylinder.radius_m : cylinder.top_radius_m.value_or(cylinder.radius_m);
+  if (nearer(range, hit) && (off + range * across).squaredNorm() <= end_radius * end_radius)
     hit = {range,
            enters_base ? Eigen::Vector3d(-axis) : axis,
            cylinder.intensity,

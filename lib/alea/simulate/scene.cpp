@@ -33,7 +33,8 @@ BoundingBall bounding_ball(const Box& box) {
 
 BoundingBall bounding_ball(const Cylinder& cylinder) {
   return {cylinder.base_m + cylinder.axis_m / 2,
-          std::hypot(cylinder.axis_m.norm() / 2, cylinder.radius_m)};
+          std::hypot(cylinder.axis_m.norm() / 2,
+                     std::max(cylinder.radius_m, cylinder.top_radius_m.value_or(0)))};
 }
 
 BoundingBall bounding_ball(const Sphere& sphere) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,12 +35,13 @@ struct Box {
   double intensity = 0.5;
 };
 
-/// A solid round cylinder with flat ends.
+/// A solid round cylinder with flat ends; with a radius of its own at the top, a frustum of a cone.
 struct Cylinder {
   std::string id;
   Eigen::Vector3d base_m = Eigen::Vector3d::Zero();   ///< centre of one end
   Eigen::Vector3d axis_m = Eigen::Vector3d::UnitZ();  ///< to the centre of the other end
   double radius_m = 0.5;
+  std::optional<double> top_radius_m = {};  ///< at the other end; empty: the same
   double intensity = 0.5;
 };
 

@@ -48,6 +48,8 @@ Cylinder read_cylinder(const TomlTable& table, std::size_t number) {
   cylinder.axis_m = table.vector3("axis_m", cylinder.axis_m);
   if (!(cylinder.axis_m.norm() > 0)) table.fail("axis_m", "an axis of positive length");
   cylinder.radius_m = table.number("radius_m", cylinder.radius_m, Allowed::positive);
+  if (table.has("top_radius_m"))
+    cylinder.top_radius_m = table.number("top_radius_m", 0, Allowed::not_negative);
   cylinder.intensity = read_intensity(table, cylinder.intensity);
   table.finish();
   return cylinder;

@@ -39,6 +39,9 @@ struct IcpOptions {
   RobustKernel kernel = RobustKernel::none;
   /// Largest angle between the normals of a pair, sign ignored; below pi/2 both clouds need them.
   double normal_angle_rad = std::numeric_limits<double>::infinity();
+  /// Normals count with their sign: those of both clouds face their scanners, and the two faces of
+  /// a thin wall do not pair.
+  bool oriented_normals = false;
   /// Directions in which the normal matrix is below this share of its largest eigenvalue are not
   /// determined by the data and stay as they are: on a plane, sliding and turning in it. Rotations
   /// count in units of the pairs' radius about their centroid, so the share has no unit.

@@ -28,14 +28,15 @@ void pair_point(const IcpTarget::Data& target, double limit_m2, std::size_t i, I
 }
 
 void drop_disagreeing_normals(const IcpTarget::Data& target, const IcpPoints& source,
-                              const Eigen::Matrix3d& rotation, double angle_rad, IcpPairs& pairs) {
-  const double least_cosine = std::cos(angle_rad);
+                              const Eigen::Matrix3d& rotation, const IcpOptions& options,
+                              IcpPairs& pairs) {
+  const double least_cosine = std::cos(options.normal_angle_rad);
   parallel_chunks(pairs.used.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (!pairs.used[i]) continue;
       const double cosine =
           target.points.normals[pairs.target[i]].dot(rotation * source.normals[i]);
-      pairs.used[i] = std::abs(cosine) >= least_cosine;
+      pairs.used[i] = (options.oriented_normals ? cosine : std::abs(cosine)) >= least_cosine;
     }
   });
 }
@@ -73,8 +74,7 @@ void update_pairs(const IcpTarget::Data& target, const IcpPoints& source,
     }
   });
   if (options.normal_angle_rad < std::numbers::pi / 2)
-    drop_disagreeing_normals(target, source, target_from_source.rotation, options.normal_angle_rad,
-                             pairs);
+    drop_disagreeing_normals(target, source, target_from_source.rotation, options, pairs);
   if (options.trim_share > 0) trim(options.trim_share, pairs);
   pairs.count = static_cast<std::size_t>(std::count(pairs.used.begin(), pairs.used.end(), 1));
 }

@@ -1,5 +1,5 @@
 #include "alea/cgal/kernels.hpp"
-#include "alea/die/exact_predicates.hpp"
+#include "alea/plane/exact_predicates.hpp"
 
 namespace alea {
 namespace {

@@ -1,0 +1,142 @@
+#include "alea/markerless/pose_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "alea/core/parallel.hpp"
+#include "alea/markerless/feature_match.hpp"
+#include "alea/markerless/plane_triples.hpp"
+#include "alea/markerless/yaw_sweep.hpp"
+
+namespace alea {
+namespace {
+
+constexpr double deg = std::numbers::pi / 180;
+
+IcpOptions gated(double gate_m, int iterations, double trim_share) {
+  IcpOptions options;
+  options.objective = IcpObjective::point_to_plane;
+  options.max_distance_m = gate_m;
+  options.max_iterations = iterations;
+  options.rotation_tolerance_rad = 1e-5;
+  options.translation_tolerance_m = 1e-4;
+  options.trim_share = trim_share;
+  options.normal_angle_rad = std::acos(0.7);
+  options.oriented_normals = true;
+  return options;
+}
+
+std::vector<PoseCandidate> all_candidates(const PreparedScan& fixed, const PreparedScan& moving,
+                                          const PoseSearchOptions& options) {
+  std::vector<PoseCandidate> sweep, features, triples;
+  parallel_pair([&] { sweep = distinct(yaw_sweep(fixed, moving, {}), 5 * deg, 0.5, 150); },
+                [&] {
+                  features = feature_candidates(fixed, moving, {.seed = options.seed});
+                  triples = plane_triple_candidates(fixed, moving, {});
+                });
+  std::vector<PoseCandidate> all;
+  if (options.initial) all.push_back({*options.initial, 1, CandidateSource::initial});
+  all.push_back({{}, 0, CandidateSource::identity});
+  for (const auto& part : {sweep, features, triples})
+    all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+/// The best of each generator, and those of the rest that the probes contradict least.
+std::vector<PoseCandidate> screen(const PreparedScan& fixed, const PreparedScan& moving,
+                                  const std::vector<PoseCandidate>& candidates,
+                                  const PoseSearchOptions& options) {
+  std::vector<PoseCandidate> kept, rest;
+  std::map<CandidateSource, std::size_t> of_source;
+  for (const PoseCandidate& candidate : candidates)  // best first within a source
+    (of_source[candidate.source]++ < options.of_each_source ? kept : rest).push_back(candidate);
+  EvidenceOptions evidence;
+  evidence.agree_m = 5 * std::max(fixed.cell_m, moving.cell_m);
+  evidence.free_margin_m = evidence.agree_m;
+  evidence.use_probe = true;
+  parallel_chunks(rest.size(), 1, [&](std::size_t i, std::size_t) {
+    const PoseEvidence found = pose_evidence(fixed, moving, rest[i].fixed_from_moving, evidence);
+    rest[i].score = found.overlap() < 0.05 ? -1e9 : -found.conflict_ratio();
+  });
+  rest = distinct(std::move(rest), 3 * deg, 0.3, options.screened);
+  kept.insert(kept.end(), rest.begin(), rest.end());
+  return kept;
+}
+
+/// Each refined by its probe against the coarse grid; the least contradicted first.
+std::vector<PoseCandidate> refine_coarsely(const PreparedScan& fixed, const PreparedScan& moving,
+                                           std::vector<PoseCandidate> candidates,
+                                           std::size_t count) {
+  const double cell_m = std::max(fixed.cell_m, moving.cell_m);
+  const IcpOptions wide = gated(10 * cell_m, 10, 0.1), narrow = gated(4 * cell_m, 10, 0.1);
+  const IcpTarget target(fixed.coarse, wide);
+  EvidenceOptions evidence;
+  evidence.agree_m = 2 * cell_m;
+  evidence.use_probe = true;
+  parallel_chunks(candidates.size(), 1, [&](std::size_t i, std::size_t) {
+    PoseCandidate& candidate = candidates[i];
+    for (const IcpOptions& options : {wide, narrow})
+      candidate.fixed_from_moving =
+          icp(target, moving.probe, candidate.fixed_from_moving, options).target_from_source;
+    const PoseEvidence found = pose_evidence(fixed, moving, candidate.fixed_from_moving, evidence);
+    candidate.score = found.overlap() < 0.03 ? -1e9 : -found.conflict_ratio();
+  });
+  return distinct(std::move(candidates), 2 * deg, 0.3, count);
+}
+
+bool less_contradicted(const PoseHypothesis& a, const PoseHypothesis& b) {
+  return a.evidence.conflict_ratio() < b.evidence.conflict_ratio();
+}
+
+/// The first of each cluster of near poses.
+std::vector<PoseHypothesis> distinct_poses(const std::vector<PoseHypothesis>& hypotheses) {
+  std::vector<PoseHypothesis> kept;
+  for (const PoseHypothesis& hypothesis : hypotheses) {
+    const bool known = std::any_of(kept.begin(), kept.end(), [&](const PoseHypothesis& other) {
+      return is_near(other.fixed_from_moving, hypothesis.fixed_from_moving, 2 * deg, 0.3);
+    });
+    if (!known) kept.push_back(hypothesis);
+  }
+  return kept;
+}
+
+/// One ICP against the fine grid, then the evidence of all points.
+void refine(const PreparedScan& fixed, const PreparedScan& moving, const IcpTarget& target,
+            const Cloud& source, const IcpOptions& options, PoseHypothesis& hypothesis) {
+  const IcpResult result = icp(target, source, hypothesis.fixed_from_moving, options);
+  hypothesis.fixed_from_moving = result.target_from_source;
+  hypothesis.evidence = pose_evidence(fixed, moving, result.target_from_source, {});
+  hypothesis.information = result.information;
+  hypothesis.information_about_m = result.information_about_m;
+  hypothesis.normal_rmse_m = result.normal_rmse_m;
+  hypothesis.pairs = result.pairs;
+}
+
+}  // namespace
+
+std::vector<PoseHypothesis> search_pose(const PreparedScan& fixed, const PreparedScan& moving,
+                                        const PoseSearchOptions& options) {
+  std::vector<PoseCandidate> candidates = all_candidates(fixed, moving, options);
+  candidates = screen(fixed, moving, candidates, options);
+  candidates = refine_coarsely(fixed, moving, std::move(candidates), options.judged);
+  const double cell_m = std::max(fixed.cell_m, moving.cell_m);
+  const IcpOptions middle = gated(3.5 * cell_m, 15, 0.1), last = gated(1.2 * cell_m, 15, 0.05);
+  const IcpTarget target(fixed.fine, middle);
+  std::vector<PoseHypothesis> hypotheses(candidates.size());
+  parallel_chunks(candidates.size(), 1, [&](std::size_t i, std::size_t) {
+    hypotheses[i].fixed_from_moving = candidates[i].fixed_from_moving;
+    hypotheses[i].source = candidates[i].source;
+    refine(fixed, moving, target, moving.coarse, middle, hypotheses[i]);
+  });
+  std::stable_sort(hypotheses.begin(), hypotheses.end(), less_contradicted);
+  hypotheses = distinct_poses(hypotheses);
+  parallel_chunks(std::min<std::size_t>(hypotheses.size(), 3), 1, [&](std::size_t i, std::size_t) {
+    refine(fixed, moving, target, moving.fine, last, hypotheses[i]);
+  });
+  std::stable_sort(hypotheses.begin(), hypotheses.end(), less_contradicted);
+  return distinct_poses(hypotheses);
+}
+
+}  // namespace alea

@@ -1,0 +1,205 @@
+#include "alea/pipeline/register_markerless.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "alea/cloud/normals.hpp"
+#include "alea/cloud/sampling.hpp"
+#include "alea/core/error.hpp"
+#include "alea/core/parallel.hpp"
+#include "alea/markerless/pose_covariance.hpp"
+#include "alea/pipeline/stopwatch.hpp"
+#include "alea/transform/reference_point.hpp"
+
+namespace alea {
+namespace {
+
+/// Between the scans' own frames, from a pose between their local ones.
+RigidTransform own_frames(const PreparedScan& fixed, const PreparedScan& moving,
+                          const RigidTransform& local) {
+  return {local.rotation, fixed.scanner_m + local.translation - local.rotation * moving.scanner_m};
+}
+
+RigidTransform local_frames(const PreparedScan& fixed, const PreparedScan& moving,
+                            const RigidTransform& own) {
+  return {own.rotation, own.translation - fixed.scanner_m + own.rotation * moving.scanner_m};
+}
+
+/// How many other poses are contradicted about as little as the first.
+int rivals(const std::vector<PoseHypothesis>& hypotheses, const AcceptanceOptions& options) {
+  const double best = hypotheses[0].evidence.conflict_ratio();
+  int count = 0;
+  for (std::size_t i = 1; i < hypotheses.size(); ++i) {
+    const PoseEvidence& evidence = hypotheses[i].evidence;
+    const double ratio = evidence.conflict_ratio();
+    // A pose that hardly touches the other scan is not contradicted either: that is no rival.
+    if (evidence.overlap() < std::min(options.least_overlap, hypotheses[0].evidence.overlap() / 2))
+      continue;
+    if (ratio - best < options.least_margin ||
+        (ratio + options.conflict_floor) / (best + options.conflict_floor) < options.least_factor)
+      ++count;
+  }
+  return count;
+}
+
+std::optional<Refusal> reason_to_refuse(const std::vector<PoseHypothesis>& hypotheses,
+                                        const AcceptanceOptions& options) {
+  if (hypotheses.empty())
+    return Refusal{RefusalCode::no_match,
+                   "no pose brings the two scans together; do they show the same place?"};
+  const PoseEvidence& best = hypotheses[0].evidence;
+  if (best.overlap() < options.least_overlap)
+    return Refusal{
+        RefusalCode::low_overlap,
+        fmt::format("{:.1f} % of the points agree at the best pose, {:.1f} % are needed; "
+                    "add a station between the two",
+                    100 * best.overlap(), 100 * options.least_overlap)};
+  if (const int others = rivals(hypotheses, options); others > 0)
+    return Refusal{
+        RefusalCode::ambiguous_target,
+        fmt::format("the scene is symmetric or too plain: {} poses fit about as well; give "
+                    "--initial, or scan something that breaks the symmetry",
+                    others + 1)};
+  if (best.conflict_ratio() > options.largest_conflict_ratio)
+    return Refusal{
+        RefusalCode::no_match,
+        fmt::format("the best pose puts surfaces into space that the other scanner saw through "
+                    "(conflict ratio {:.3f}, at most {:.3f}); do the scans show the same place?",
+                    best.conflict_ratio(), options.largest_conflict_ratio)};
+  return std::nullopt;
+}
+
+MarkerlessReport report_of(const PreparedScan& fixed, const PreparedScan& moving,
+                           const std::vector<PoseHypothesis>& hypotheses) {
+  MarkerlessReport report;
+  if (hypotheses.empty()) return report;
+  const PoseEvidence& best = hypotheses[0].evidence;
+  report.overlap_fixed = best.agree_fixed;
+  report.overlap_moving = best.agree_moving;
+  report.conflict_ratio = best.conflict_ratio();
+  report.rmse_m = best.normal_rmse_m;
+  for (std::size_t i = 1; i < hypotheses.size(); ++i)
+    report.alternatives.push_back({own_frames(fixed, moving, hypotheses[i].fixed_from_moving),
+                                   hypotheses[i].evidence.overlap(),
+                                   hypotheses[i].evidence.conflict_ratio(),
+                                   to_string(hypotheses[i].source)});
+  return report;
+}
+
+void accept(const PreparedScan& fixed, const PreparedScan& moving, const PoseHypothesis& best,
+            Registration& registration) {
+  const Eigen::Vector3d about = reference_point(fixed.scanner_m);
+  const auto covariance =
+      pose_covariance(fixed, moving, best.fixed_from_moving, about - fixed.scanner_m);
+  if (!covariance) {
+    registration.refusal =
+        Refusal{RefusalCode::unobservable,
+                "the common surfaces leave a direction of motion open (one plane, a pipe, a "
+                "corridor); add a station that sees across it"};
+    return;
+  }
+  registration.master_from_slave = own_frames(fixed, moving, best.fixed_from_moving);
+  registration.covariance = TransformCovariance{covariance->covariance, about};
+}
+
+/// Share of the moving points that have a fixed point within 0.1 m.
+double overlap_at(const NeighbourIndex& fixed, const Cloud& moving, const RigidTransform& pose) {
+  std::vector<std::uint8_t> near(moving.size());
+  parallel_chunks(moving.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      near[i] = fixed.nearest_one(pose * moving.positions[i], 0.1).has_value();
+  });
+  std::size_t count = 0;
+  for (const std::uint8_t one : near) count += one;
+  return static_cast<double>(count) / static_cast<double>(std::max<std::size_t>(moving.size(), 1));
+}
+
+Cloud paper_sample(const Cloud& cloud, const PaperIcpOptions& options) {
+  Cloud sample = options.cell_m > 0 ? grid_average(cloud, options.cell_m) : cloud;
+  sample.normals.clear();
+  return sample;
+}
+
+MarkerlessRegistration register_by_paper(const Cloud& fixed, const Cloud& moving,
+                                         const MarkerlessOptions& options) {
+  const PaperIcpOptions& paper = options.paper;
+  Stopwatch stopwatch;
+  Cloud target = paper_sample(fixed, paper);
+  const Cloud source = paper_sample(moving, paper);
+  const double sampling_s = stopwatch.lap_s();
+  if (paper.objective == IcpObjective::point_to_plane)
+    for (const Eigen::Vector3d& n : estimate_normals(target, {paper.normal_neighbours, {}}))
+      target.normals.push_back(n.cast<float>());
+  IcpOptions icp_options;
+  icp_options.objective = paper.objective;
+  icp_options.max_iterations = paper.max_iterations;
+  icp_options.rotation_tolerance_rad = paper.rotation_tolerance_rad;
+  icp_options.translation_tolerance_m = paper.translation_tolerance_m;
+  icp_options.settled_change = 0;
+  const IcpResult result =
+      icp(target, source, options.initial.value_or(RigidTransform{}), icp_options);
+  const double icp_s = stopwatch.lap_s();
+
+  MarkerlessRegistration out;
+  out.registration.method = "paper";
+  out.registration.master_from_slave = result.target_from_source;
+  out.report.rmse_m = result.rmse_m;
+  out.report.iterations = result.iterations;
+  out.report.overlap_moving =
+      overlap_at(NeighbourIndex(target.positions), source, result.target_from_source);
+  out.report.overlap_fixed =
+      overlap_at(NeighbourIndex(source.positions), target, result.target_from_source.inverse());
+  out.registration.timing_s = {
+      {"sample", sampling_s}, {"icp", icp_s}, {"total", sampling_s + icp_s}};
+  if (!result.converged())
+    out.registration.warnings.push_back(
+        fmt::format("no_convergence: ICP stopped by its {} after {} iterations",
+                    to_string(result.stop), result.iterations));
+  return out;
+}
+
+}  // namespace
+
+MarkerlessRegistration register_prepared(const PreparedScan& fixed, const PreparedScan& moving,
+                                         const MarkerlessOptions& options) {
+  PoseSearchOptions search;
+  search.seed = options.seed;
+  if (options.initial) search.initial = local_frames(fixed, moving, *options.initial);
+  const std::vector<PoseHypothesis> hypotheses = search_pose(fixed, moving, search);
+  MarkerlessRegistration out;
+  out.registration.method = "robust";
+  out.report = report_of(fixed, moving, hypotheses);
+  AmbiguityReport ambiguity;
+  if (hypotheses.size() > 1) {
+    ambiguity.alternatives = rivals(hypotheses, options.acceptance);
+    const double floor = options.acceptance.conflict_floor;
+    ambiguity.log_likelihood_margin = std::log((hypotheses[1].evidence.conflict_ratio() + floor) /
+                                               (hypotheses[0].evidence.conflict_ratio() + floor));
+  }
+  out.registration.ambiguity = ambiguity;
+  out.registration.refusal = reason_to_refuse(hypotheses, options.acceptance);
+  if (!out.registration.refusal) accept(fixed, moving, hypotheses[0], out.registration);
+  return out;
+}
+
+MarkerlessRegistration register_markerless(const Cloud& fixed, const Cloud& moving,
+                                           const MarkerlessOptions& options) {
+  if (fixed.empty() || moving.empty())
+    throw usage_error("register markerless: a scan has no points");
+  if (options.method == MarkerlessMethod::paper) return register_by_paper(fixed, moving, options);
+  Stopwatch stopwatch;
+  PrepareOptions prepare;
+  prepare.levelled = options.levelled;
+  std::optional<PreparedScan> of_fixed, of_moving;
+  parallel_pair([&] { of_fixed = prepare_scan(fixed, prepare); },
+                [&] { of_moving = prepare_scan(moving, prepare); });
+  const double prepare_s = stopwatch.lap_s();
+  MarkerlessRegistration out = register_prepared(*of_fixed, *of_moving, options);
+  const double search_s = stopwatch.lap_s();
+  out.registration.timing_s = {
+      {"prepare", prepare_s}, {"search", search_s}, {"total", prepare_s + search_s}};
+  return out;
+}
+
+}  // namespace alea
