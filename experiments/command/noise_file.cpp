@@ -17,10 +17,11 @@ struct Entry {
   double NoiseModel::*value;
 };
 
-constexpr std::array<Entry, 4> entries{{{"range_noise_m", &NoiseModel::range_noise_m},
+constexpr std::array<Entry, 5> entries{{{"range_noise_m", &NoiseModel::range_noise_m},
                                         {"grazing_m", &NoiseModel::grazing_m},
                                         {"surface_m", &NoiseModel::surface_m},
-                                        {"angular_noise_rad", &NoiseModel::angular_noise_rad}}};
+                                        {"angular_noise_rad", &NoiseModel::angular_noise_rad},
+                                        {"range_growth", &NoiseModel::range_growth}}};
 
 }  // namespace
 
@@ -41,9 +42,10 @@ NoiseModel read_noise_file(const std::string& path) {
   }
   if (!any)
     throw input_error(fmt::format(
-        "{}: none of range_noise_m, grazing_m, surface_m, angular_noise_rad; see the README",
+        "{}: none of range_noise_m, grazing_m, surface_m, angular_noise_rad, range_growth; see "
+        "the README",
         path));
-  if (noise.range_noise_m + noise.surface_m + noise.grazing_m <= 0)
+  if (noise.range_noise_m + noise.surface_m + noise.grazing_m + noise.range_growth <= 0)
     throw input_error(
         fmt::format("{}: a scanner without any noise has no covariance; give range_noise_m", path));
   return noise;

@@ -83,6 +83,22 @@ TEST(Scanner, AnotherTrialHasOtherNoise) {
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NE(a.positions[i], b.positions[i]);
 }
 
+TEST(Scanner, RangeNoiseGrowsWithTheRangeAndNothingElse) {
+  for (const double range_m : {10.0, 40.0}) {
+    DieView view = die_view(range_m, 1e-4 * 40 / range_m);
+    view.station.scanner.noise.range_growth = 2e-4;
+    const SimulatedScan scan = simulate_scan_with_truth(view.scene, view.station, {3, 0, 0, 0});
+    ASSERT_GT(scan.cloud.size(), 5000u);
+    double square = 0;
+    for (std::size_t i = 0; i < scan.cloud.size(); ++i)
+      square += std::pow(
+          (scan.cloud.positions[i].norm() - scan.truth[i].range_m) / (2e-4 * scan.truth[i].range_m),
+          2);
+    const auto n = static_cast<double>(scan.cloud.size());
+    EXPECT_NEAR(square / n, 1, 4 * std::sqrt(2 / n)) << "at " << range_m << " m";
+  }
+}
+
 TEST(Scanner, RefusesAnEmptyGrid) {
   Station station;
   station.azimuth = {1, 0, 1e-3};

@@ -9,6 +9,9 @@ struct NoiseModel {
   double grazing_m = 0.0008;      ///< along the normal, times the sine of the incidence angle
   double surface_m = 0.0008;      ///< surface roughness along the normal
   double angular_noise_rad = 2.4241e-5;  ///< 5 arc seconds, azimuth and elevation each
+  /// Growth of the error along the ray with the range, metres per metre; joins range_noise_m as a
+  /// root of summed squares.
+  double range_growth = 0;
 
   /// Standard deviation along the surface normal (m) at a range (m) and the cosine of the incidence
   /// angle.

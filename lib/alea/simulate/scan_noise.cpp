@@ -28,14 +28,15 @@ Eigen::Vector2d ScanNoise::angles_rad(std::uint64_t ray) const {
   return {sd * azimuth, sd * elevation};
 }
 
-ScanNoise::Error ScanNoise::at(std::uint64_t ray, double cos_incidence) const {
+ScanNoise::Error ScanNoise::at(std::uint64_t ray, double range_m, double cos_incidence) const {
   const NoiseModel& noise = scanner_.noise;
   const double cosine = std::clamp(std::abs(cos_incidence), least_cosine, 1.0);
   Error error;
-  if (noise.range_noise_m > 0 || noise.grazing_m > 0) {
+  const double range_sd_m = std::hypot(noise.range_noise_m, noise.range_growth * range_m);
+  if (range_sd_m > 0 || noise.grazing_m > 0) {
     const auto [range, grazing] = range_and_grazing_.normal2_at(ray);
     const double tangent = std::sqrt(1 - cosine * cosine) / cosine;
-    error.range_m += noise.range_noise_m * range + noise.grazing_m * tangent * grazing;
+    error.range_m += range_sd_m * range + noise.grazing_m * tangent * grazing;
   }
   if (noise.surface_m > 0 || scanner_.intensity_noise > 0) {
     const auto [surface, intensity] = surface_and_intensity_.normal2_at(ray);

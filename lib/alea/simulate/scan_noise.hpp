@@ -22,8 +22,8 @@ class ScanNoise {
     double range_m = 0;
     double intensity = 0;
   };
-  /// What the scanner adds to a true range and intensity at this cosine of the incidence angle.
-  Error at(std::uint64_t ray, double cos_incidence) const;
+  /// What the scanner adds to a true range (m) and intensity at this cosine of the incidence angle.
+  Error at(std::uint64_t ray, double range_m, double cos_incidence) const;
 
  private:
   Scanner scanner_;

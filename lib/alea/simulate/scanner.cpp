@@ -125,7 +125,7 @@ class RowScanner {
       intensity = echo.intensity;
     }
     const double cosine = std::abs(hit.normal.dot(centre.direction));
-    const ScanNoise::Error error = noise_.at(number, cosine);
+    const ScanNoise::Error error = noise_.at(number, hit.range_m, cosine);
     out.cloud.positions.push_back((range + error.range_m) * reported);
     out.cloud.intensity.push_back(static_cast<float>(intensity + error.intensity));
     if (with_truth) out.truth.push_back({hit.surface, hit.range_m, cosine});

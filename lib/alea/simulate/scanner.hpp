@@ -36,10 +36,11 @@ struct SimulatedScan {
 ///
 /// The grid is what the scanner reports; the beam leaves along a direction that departs from it by
 /// the angular noise. With a beam of some width, range and intensity are means over sub-rays.
-/// Range then gets range noise N(0, range_noise_m), grazing noise N(0, grazing_m) times the tangent
-/// and surface roughness N(0, surface_m) over the cosine of the incidence angle (capped at 87 deg),
-/// intensity gets intensity_noise. Every cause has random numbers of its own, read at the ray's
-/// number in the grid: switching one off leaves the others' as they were.
+/// Range then gets range noise N(0, range_noise_m and range_growth r, summed in squares), grazing
+/// noise N(0, grazing_m) times the tangent and surface roughness N(0, surface_m) over the cosine of
+/// the incidence angle (capped at 87 deg), intensity gets intensity_noise. Every cause has random
+/// numbers of its own, read at the ray's number in the grid: switching one off leaves the others'
+/// as they were.
 ///
 /// Throws Error(usage) for an empty grid, or one of more than 1e9 rays.
 Cloud simulate_scan(const Scene& scene, const Station& station, const SimulationKey& key,

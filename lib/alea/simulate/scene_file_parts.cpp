@@ -94,6 +94,7 @@ Scanner read_scanner(const TomlTable& table, const Scanner& base) {
   scanner.noise.surface_m = length("surface_m", base.noise.surface_m);
   scanner.noise.angular_noise_rad =
       length("angular_noise_arcsec", base.noise.angular_noise_rad / arc_second) * arc_second;
+  scanner.noise.range_growth = 1e-6 * length("range_growth_ppm", base.noise.range_growth * 1e6);
   scanner.beam_diameter_m = length("beam_diameter_m", base.beam_diameter_m);
   scanner.beam_divergence_rad =
       length("beam_divergence_mrad", base.beam_divergence_rad * 1e3) / 1e3;

@@ -28,6 +28,7 @@ Json to_json(const Scanner& scanner) {
           {"grazing_m", scanner.noise.grazing_m},
           {"surface_m", scanner.noise.surface_m},
           {"angular_noise_rad", scanner.noise.angular_noise_rad},
+          {"range_growth", scanner.noise.range_growth},
           {"beam_diameter_m", scanner.beam_diameter_m},
           {"beam_divergence_rad", scanner.beam_divergence_rad},
           {"beam_rings", scanner.beam_rings},
