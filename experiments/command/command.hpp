@@ -60,6 +60,8 @@ void add_evaluate(CLI::App& app, int& exit_code);
 void add_apply(CLI::App& app, int& exit_code);
 void add_transform(CLI::App& app, int& exit_code);
 void add_simulate(CLI::App& app, int& exit_code);
+void add_calibrate(CLI::App& app, int& exit_code);
+void add_plan(CLI::App& app, int& exit_code);
 void add_register(CLI::App& app, int& exit_code);
 
 }  // namespace alea::command

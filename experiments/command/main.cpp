@@ -61,6 +61,8 @@ int run(int argc, char** argv) {
            add_apply,
            add_transform,
            add_simulate,
+           add_plan,
+           add_calibrate,
            add_register,
            add_acceptance,
            add_reproduce,

@@ -12,6 +12,7 @@
 #include "alea/simulate/scene_file.hpp"
 #include "alea/simulate/truth.hpp"
 #include "experiments/command/command.hpp"
+#include "experiments/command/folder.hpp"
 
 namespace alea::command {
 namespace {
@@ -21,14 +22,6 @@ struct Simulate {
   std::string out;
   CommonOptions common;
 };
-
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (!std::filesystem::is_directory(folder))
-    throw input_error(fmt::format("{}: cannot be made a folder ({}); choose another --out",
-                                  folder.string(), error.message()));
-}
 
 int run(const Simulate& simulate) {
   const ThreadLimit limit(simulate.common.threads);

@@ -94,17 +94,21 @@ Result<TransformCovariance> relative_covariance(const FisherBound& bound, std::s
                              master_from_scene * about_scene_m};
 }
 
-PoseAccuracy pose_accuracy(const TransformCovariance& covariance, const Eigen::Vector3d& up) {
+double ring_error_m(const TransformCovariance& covariance, double radius_m,
+                    const Eigen::Vector3d& up) {
   const Eigen::Matrix3d rotation = covariance.covariance.topLeftCorner<3, 3>();
   const Eigen::Matrix3d translation = covariance.covariance.bottomRightCorner<3, 3>();
   // Over the ring the mean of |w x p|^2 is radius^2 (w'w - w' <p p'> w / radius^2), <p p'> being
   // half the projector on the ring's plane; the mixed term has zero mean.
   const Eigen::Vector3d axis = up.normalized();
   const double lever = (rotation.trace() + axis.dot(rotation * axis)) / 2;
-  const auto ring = [&](double radius) {
-    return std::sqrt(radius * radius * lever + translation.trace());
-  };
-  return {std::sqrt(rotation.trace()), std::sqrt(translation.trace()), ring(5), ring(10)};
+  return std::sqrt(radius_m * radius_m * lever + translation.trace());
+}
+
+PoseAccuracy pose_accuracy(const TransformCovariance& covariance, const Eigen::Vector3d& up) {
+  return {std::sqrt(covariance.covariance.topLeftCorner<3, 3>().trace()),
+          ring_error_m(covariance, 0, up), ring_error_m(covariance, 5, up),
+          ring_error_m(covariance, 10, up)};
 }
 
 FisherScene die_bound_scene(const DieBoundCase& geometry) {

@@ -49,6 +49,11 @@ struct PoseAccuracy {
 PoseAccuracy pose_accuracy(const TransformCovariance& covariance,
                            const Eigen::Vector3d& up = Eigen::Vector3d::UnitZ());
 
+/// RMS 3-D displacement (m) on a circle of `radius_m` about the covariance's point, at right angles
+/// to `up`.
+double ring_error_m(const TransformCovariance& covariance, double radius_m,
+                    const Eigen::Vector3d& up = Eigen::Vector3d::UnitZ());
+
 /// Bound of a cube of `edge_m` on the floor seen by two stations at `range_m` from its centre,
 /// 45 deg off the facets, `separation_rad` apart, scanner 1.6 m above the floor: the geometry of
 /// the die study. `shape_known`: bound K; else L, all tilts and offsets free and the shared edge

@@ -71,6 +71,7 @@ Eigen::Matrix3d facet_information(const FisherFacet& facet, const FisherStation&
         // The square (s, t) folded onto the triangle; the Jacobian is s.
         const double s = rule().node[i], t = rule().node[j];
         const Eigen::Vector3d x = a + s * ((1 - t) * ab + t * ac);
+        if (station.sees && !station.sees(x)) continue;
         const double area = rule().weight[i] * rule().weight[j] * s * twice_area;
         const double range = (x - eye).norm();
         const Eigen::Vector3d ray = (x - eye) / range;
@@ -112,6 +113,7 @@ Eigen::Matrix4d sphere_information(const FisherSphere& sphere, const FisherStati
       const double phi = 2 * std::numbers::pi * (j + 0.5) / directions;
       const Eigen::Vector3d ray = cos_theta * axis + sin_theta * (std::cos(phi) * basis.col(0) +
                                                                   std::sin(phi) * basis.col(1));
+      if (station.sees && !station.sees(eye + range * ray)) continue;
       const double rays =
           solid_angle / (station.step_rad * station.step_rad * cos_elevation(ray, station));
       Eigen::Vector4d m;

@@ -11,7 +11,7 @@ namespace alea {
 /// corners, e1 and e2 the tangent_basis of the normal, w = 1 / normal_sd_m^2.
 /// The sum is taken as an integral: a surface element dA at range rho receives
 /// cos(incidence) dA / (rho^2 step^2 cos(elevation)) rays of a regular azimuth and elevation grid.
-/// Zero where the facet does not face the station; occlusion is not looked at.
+/// Zero where the facet does not face the station; points that `station.sees` denies do not count.
 Eigen::Matrix3d facet_information(const FisherFacet& facet, const FisherStation& station,
                                   const NoiseModel& noise);
 

@@ -134,8 +134,9 @@ void add_facet(FisherNormal& system, const FisherScene& scene, const FisherBody&
   for (std::size_t s = 0; s < scene.stations.size(); ++s) {
     const int first = 6 * static_cast<int>(s);
     rows.middleCols<6>(first) = rigid;
-    system.normal +=
-        rows.transpose() * facet_information(facet, scene.stations[s], scene.noise) * rows;
+    const FisherStation& station = scene.stations[s];
+    system.normal += rows.transpose() *
+                     facet_information(facet, station, station.noise.value_or(scene.noise)) * rows;
     rows.middleCols<6>(first).setZero();
   }
   const std::array<double, 3> sd{body.tilt_sd_rad, body.tilt_sd_rad, body.offset_sd_m};
@@ -188,8 +189,8 @@ void add_sphere(FisherNormal& system, const FisherScene& scene, const FisherSphe
   for (std::size_t s = 0; s < scene.stations.size(); ++s) {
     auto station = rows.block<3, 6>(0, 6 * static_cast<int>(s));
     station << lever, Eigen::Matrix3d::Identity();
-    system.normal +=
-        rows.transpose() * sphere_information(sphere, scene.stations[s], scene.noise) * rows;
+    const NoiseModel& noise = scene.stations[s].noise ? *scene.stations[s].noise : scene.noise;
+    system.normal += rows.transpose() * sphere_information(sphere, scene.stations[s], noise) * rows;
     station.setZero();
   }
 }

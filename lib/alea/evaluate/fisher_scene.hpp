@@ -2,7 +2,9 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <functional>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "alea/core/noise_model.hpp"
@@ -20,6 +22,10 @@ struct FisherStation {
   double step_rad = 3e-4;          ///< of the azimuth and of the elevation
   /// Standard deviation of the levelling about the scene's x and y each (rad); unknown_sd: none.
   double level_sd_rad = unknown_sd;
+  /// This station's own noise; empty: the scene's.
+  std::optional<NoiseModel> noise;
+  /// Whether a point of a target (scene frame, metres) is seen; empty: everything that faces.
+  std::function<bool(const Eigen::Vector3d&)> sees;
 };
 
 /// A flat convex piece of surface, scene frame, metres.

@@ -176,6 +176,7 @@ std::vector<std::pair<std::string, BoundingBall>> targets_of(const Scene& scene)
 Scene load_scene(const std::filesystem::path& path) {
   const TomlTable file = TomlTable::read(path);
   file.text("title", "");
+  file.table("plan");  // what `alea plan` asks for; read by load_plan
   Scene scene;
   if (const auto room = file.table("room")) scene.patches = read_room(*room);
   read_all(file, "die", read_die, scene.dice);

@@ -1,0 +1,19 @@
+#include "experiments/command/folder.hpp"
+
+#include <fmt/format.h>
+
+#include <system_error>
+
+#include "alea/core/error.hpp"
+
+namespace alea::command {
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!std::filesystem::is_directory(folder))
+    throw input_error(fmt::format("{}: cannot be made a folder ({}); choose another --out",
+                                  folder.string(), error.message()));
+}
+
+}  // namespace alea::command
