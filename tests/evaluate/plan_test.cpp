@@ -115,6 +115,12 @@ TEST(Plan, AWindowThatMissesTheDieIsAnOpenPose) {
   EXPECT_FALSE(plan_pairs(scene, {})[0].covariance);
 }
 
+TEST(Plan, ADieThatNoStationSeesIsAnOpenPose) {
+  Scene scene = bound_scene(0.5, 6);
+  for (Station& station : scene.stations) station.elevation = {1.0, 1.2, 1e-3};
+  EXPECT_FALSE(plan_pairs(scene, {})[0].covariance);
+}
+
 TEST(Plan, CountsThePointsOfEachFacet) {
   const Scene scene = bound_scene(0.5, 6, 1e-3);
   const auto facets = planned_facets(scene, {});

@@ -51,7 +51,8 @@ FisherBound fisher_bound(const FisherScene& scene) {
   const Eigen::MatrixXd scaled =
       kernel.transpose() * (unit.asDiagonal() * system.normal * unit.asDiagonal()) * kernel;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(scaled);
-  const double tolerance = rank_tolerance * spectrum.eigenvalues().tail<1>()[0];
+  // The diagonal is one where there is any information at all.
+  const double tolerance = rank_tolerance * std::max(1.0, spectrum.eigenvalues().tail<1>()[0]);
   const auto open = static_cast<Eigen::Index>((spectrum.eigenvalues().array() < tolerance).count());
   const auto known = scaled.rows() - open;
   const auto stations = static_cast<Eigen::Index>(6 * scene.stations.size());

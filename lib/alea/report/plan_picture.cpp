@@ -68,7 +68,7 @@ void draw_contour(Axes& axes, const ErrorMap& map, double level_m, Rgb colour, i
       pieces.begin(), pieces.end(),
       [](const ContourPiece& a, const ContourPiece& b) { return a.first.x() < b.first.x(); });
   axes.text(place(rightmost->first), millimetres(level_m),
-            {.height_px = 9, .colour = colour, .anchor = TextAnchor::right, .halo = true});
+            {.height_px = 9, .anchor = TextAnchor::right, .halo = true});
 }
 
 void draw_polygon(Axes& axes, const std::vector<Eigen::Vector2d>& corners, Rgb colour,
@@ -187,9 +187,7 @@ Picture draw_plan(const Scene& scene, const PlanDrawing& drawing) {
                fmt::format("By the registration's covariance {}; check planes: |offset| (mm)", at),
                scale);
   draw_colour_bar(
-      canvas,
-      {static_cast<double>(panels * panel_width_px), 40.0, static_cast<double>(bar_width_px),
-       static_cast<double>(height_px - 90)},
+      canvas, {panels * panel_width_px + 4.0, 40.0, 20.0, static_cast<double>(height_px - 90)},
       error_colour, 0, 1,
       {"0 mm", millimetres(scale.high_m / 2) + " mm", millimetres(scale.high_m) + " mm"});
   return canvas.picture();
