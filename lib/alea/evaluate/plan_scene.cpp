@@ -7,6 +7,7 @@
 #include "alea/evaluate/fisher_information.hpp"
 #include "alea/evaluate/plan.hpp"
 #include "alea/simulate/die_ray.hpp"
+#include "alea/simulate/mesh.hpp"
 #include "alea/simulate/primitive_ray.hpp"
 
 namespace alea {
@@ -32,6 +33,7 @@ bool hidden(const Scene& scene, const Eigen::Vector3d& eye, const Eigen::Vector3
   intersect_all(scene.cylinders, ray, hit);
   intersect_all(scene.spheres, ray, hit);
   intersect_all(scene.checkerboards, ray, hit);
+  intersect_all(scene.meshes, ray, hit);
   return hit.range_m < range_m - same_surface_m;
 }
 
