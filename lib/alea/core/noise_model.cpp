@@ -6,13 +6,7 @@
 namespace alea {
 
 double NoiseModel::normal_sd_m(double range_m, double cos_incidence) const {
-  const double cosine = std::clamp(std::abs(cos_incidence), 0.0, 1.0);
-  const double sine = std::sqrt(1 - cosine * cosine);
-  const double along_ray = std::hypot(range_noise_m, range_growth * range_m) * cosine;
-  const double grazing = grazing_m * sine;
-  const double pointing = angular_noise_rad * range_m * sine;
-  return std::sqrt(along_ray * along_ray + grazing * grazing + surface_m * surface_m +
-                   pointing * pointing);
+  return std::sqrt(normal_variance_m2(range_m, cos_incidence));
 }
 
 double NoiseModel::range_sd_m(double range_m, double cos_incidence) const {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 namespace alea {
 
 /// The scanner's random errors, one number for each cause; zero switches a cause off.
@@ -13,6 +15,14 @@ struct NoiseModel {
   /// root of summed squares.
   double range_growth = 0;
 
+  /// Variance along the surface normal (m^2) at a range (m) and the cosine of the incidence angle.
+  double normal_variance_m2(double range_m, double cos_incidence) const {
+    const double cos2 = std::min(cos_incidence * cos_incidence, 1.0);
+    const double pointing_m = angular_noise_rad * range_m;
+    const double growth_m = range_growth * range_m;
+    return (range_noise_m * range_noise_m + growth_m * growth_m) * cos2 + surface_m * surface_m +
+           (grazing_m * grazing_m + pointing_m * pointing_m) * (1 - cos2);
+  }
   /// Standard deviation along the surface normal (m) at a range (m) and the cosine of the incidence
   /// angle.
   double normal_sd_m(double range_m, double cos_incidence) const;

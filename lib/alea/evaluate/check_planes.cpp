@@ -48,7 +48,7 @@ CheckPlane evaluate_check_plane(const Cloud& master, const Cloud& slave, const C
   out.tilt_rad = std::atan2(slave_normal.cross(out.normal).norm(), slave_normal.dot(out.normal));
 
   both.insert(both.end(), moved.begin(), moved.end());
-  out.union_m = fit_plane(both, {.method = FitMethod::orthogonal}).rmse_m;
+  out.union_m = orthogonal_rmse_m(both);
   return out;
 }
 

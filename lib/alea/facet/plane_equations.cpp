@@ -19,22 +19,23 @@ constexpr double huber_limit = 1.345;   // 95 % efficiency at the normal distrib
 constexpr double normal_mad = 0.67449;  // median of |standard normal|
 constexpr double least_cosine = 1e-3;   // a ray nearer to the plane's direction tells nothing
 constexpr double far_share = 4;         // nor does one that meets the plane this many boxes away
-constexpr double least_sd_m = 1e-6;     // below any scanner: keeps weights finite without noise
+// (1 micrometre)^2, below any scanner: keeps weights finite without noise.
+constexpr double least_variance_m2 = 1e-12;
 
 PlaneObservation observe_orthogonally(const Eigen::Vector3d& p, const CentredFrame& frame,
                                       const CentredPlane& plane, const PlaneFitOptions& options) {
   PlaneObservation out;
   out.residual_m = plane.normal.dot(p - plane.point);
-  double sd = options.noise.normal_sd_m(0, 1);
+  double variance = options.noise.normal_variance_m2(0, 1);
   out.weight = 1;
   if (frame.scanner) {
     const Eigen::Vector3d ray = p - *frame.scanner;
     const double range = ray.norm();
     const double cosine = std::max(least_cosine, -plane.normal.dot(ray) / range);
-    sd = options.noise.normal_sd_m(range, cosine);
+    variance = options.noise.normal_variance_m2(range, cosine);
     if (options.area_weights) out.weight = range * range / cosine;
   }
-  out.variance_m2 = std::max(sd * sd, least_sd_m * least_sd_m);
+  out.variance_m2 = std::max(variance, least_variance_m2);
   return out;
 }
 
@@ -48,11 +49,12 @@ PlaneObservation observe_along_ray(const Eigen::Vector3d& p, const CentredFrame&
   const double cosine = std::max(least_cosine, slope);
   const double height = plane.normal.dot(p - plane.point);
   const double range = plane.normal.dot(*frame.scanner - plane.point) / cosine;
-  const double sd = std::max(least_sd_m, options.noise.normal_sd_m(range, cosine));
+  const double variance =
+      std::max(least_variance_m2, options.noise.normal_variance_m2(range, cosine));
   at += (height / cosine) * ray;
   out.residual_m = height / cosine;
   out.by_c = 1 / cosine;
-  out.variance_m2 = sd * sd / (cosine * cosine);
+  out.variance_m2 = variance / (cosine * cosine);
   out.weight = options.area_weights ? range * range * cosine : 1 / out.variance_m2;
   if (slope < least_cosine || at.squaredNorm() > std::pow(far_share * frame.reach_m, 2))
     out.weight = 0, at.setZero();

@@ -2,9 +2,11 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "alea/core/error.hpp"
+#include "alea/core/order_free_sum.hpp"
 #include "alea/facet/plane_equations.hpp"
 
 namespace alea {
@@ -21,10 +23,14 @@ void check_options(const PlaneFitOptions& options) {
     throw usage_error("plane fit: fits along the ray and area weights need the scanner's position");
 }
 
+/// Principal components: one pass, wherever it starts.
+bool is_principal(const PlaneFitOptions& options) {
+  return options.method == FitMethod::orthogonal && !options.area_weights && !options.robust;
+}
+
 CentredPlane pass_once(Points points, const CentredFrame& frame, const CentredPlane& plane,
                        const PlaneFitOptions& options) {
-  if (options.method == FitMethod::orthogonal && !options.area_weights && !options.robust)
-    return principal_plane(points, frame, {});
+  if (is_principal(options)) return principal_plane(points, frame, {});
   const std::vector<PlaneObservation> observations = observe_plane(points, frame, plane, options);
   if (options.method == FitMethod::orthogonal) return principal_plane(points, frame, observations);
   const PlaneEquations equations = sum_equations(observations);
@@ -39,9 +45,8 @@ bool settled(const CentredPlane& before, const CentredPlane& after) {
 }
 
 PlaneFit summarise(Points points, const CentredFrame& frame, CentredPlane plane,
-                   const PlaneFitOptions& options) {
+                   const Eigen::Vector3d& mean, const PlaneFitOptions& options) {
   PlaneFit out;
-  const Eigen::Vector3d mean = principal_plane(points, frame, {}).point;
   plane.point = mean - plane.normal.dot(mean - plane.point) * plane.normal;
   const std::vector<PlaneObservation> observations = observe_plane(points, frame, plane, options);
   const PlaneEquations equations = sum_equations(observations);
@@ -67,14 +72,17 @@ CentredPlane in_frame(const Plane& plane, const CentredFrame& frame) {
   return {-plane.signed_distance(frame.origin_m) * plane.normal, plane.normal};
 }
 
-PlaneFit fit_from(Points points, const CentredFrame& frame, CentredPlane plane,
+PlaneFit fit_from(Points points, const CentredFrame& frame, const std::optional<Plane>& start,
                   const PlaneFitOptions& options) {
+  const CentredPlane principal = principal_plane(points, frame, {});
+  if (is_principal(options)) return summarise(points, frame, principal, principal.point, options);
+  CentredPlane plane = start ? in_frame(*start, frame) : principal;
   for (int pass = 0; pass < max_passes; ++pass) {
     const CentredPlane before = plane;
     plane = pass_once(points, frame, plane, options);
     if (settled(before, plane)) break;
   }
-  return summarise(points, frame, plane, options);
+  return summarise(points, frame, plane, principal.point, options);
 }
 
 }  // namespace
@@ -82,13 +90,13 @@ PlaneFit fit_from(Points points, const CentredFrame& frame, CentredPlane plane,
 PlaneFit fit_plane(Points points, const PlaneFitOptions& options) {
   check_options(options);
   const CentredFrame frame = centred_frame(points, options);
-  return fit_from(points, frame, principal_plane(points, frame, {}), options);
+  return fit_from(points, frame, std::nullopt, options);
 }
 
 PlaneFit fit_plane(Points points, const Plane& start, const PlaneFitOptions& options) {
   check_options(options);
   const CentredFrame frame = centred_frame(points, options);
-  return fit_from(points, frame, in_frame(start, frame), options);
+  return fit_from(points, frame, start, options);
 }
 
 Plane improve_plane(Points points, const Plane& start, const PlaneFitOptions& options) {
@@ -96,6 +104,19 @@ Plane improve_plane(Points points, const Plane& start, const PlaneFitOptions& op
   const CentredFrame frame = centred_frame(points, options);
   const CentredPlane plane = pass_once(points, frame, in_frame(start, frame), options);
   return {plane.normal, plane.normal.dot(frame.origin_m + plane.point)};
+}
+
+double orthogonal_rmse_m(Points points) {
+  const CentredFrame frame = centred_frame(points, {});
+  const CentredPlane plane = principal_plane(points, frame, {});
+  const auto square = [&](const Eigen::Vector3d& p) {
+    return std::pow(plane.normal.dot(p - frame.origin_m - plane.point), 2);
+  };
+  double largest = 0;
+  for (const Eigen::Vector3d& p : points) largest = std::max(largest, square(p));
+  OrderFreeSum<1> squares({largest}, points.size());
+  for (const Eigen::Vector3d& p : points) squares.add(0, square(p));
+  return std::sqrt(squares.total(0) / static_cast<double>(points.size()));
 }
 
 PlaneFit flipped(const PlaneFit& fit) {

@@ -65,6 +65,9 @@ PlaneFit fit_plane(std::span<const Eigen::Vector3d> points, const Plane& start,
 Plane improve_plane(std::span<const Eigen::Vector3d> points, const Plane& start,
                     const PlaneFitOptions& options);
 
+/// Root mean square distance (m) of points from their own orthogonal fit, without the rest of it.
+double orthogonal_rmse_m(std::span<const Eigen::Vector3d> points);
+
 /// The same plane with its normal to the other side; tangent and covariance follow.
 PlaneFit flipped(const PlaneFit& fit);
 
