@@ -40,32 +40,6 @@ FacetPlacer::FacetPlacer(const FacetCorner& corner, SelectionDomain domain,
   }
 }
 
-PlacedPoint FacetPlacer::approach(const Eigen::Vector3d& p) const {
-  PlacedPoint out;
-  for (int k = 0; k < 3; ++k) out.height_m[k] = corner_.planes[k].normal.dot(p - corner_.corner_m);
-  if (domain_ == SelectionDomain::coordinate) {
-    out.meets.fill(true);
-    for (int k = 1; k < 3; ++k)
-      if (std::abs(out.height_m[k]) < std::abs(out.height_m[out.nearest])) out.nearest = k;
-    return out;
-  }
-  // The ray scanner + t (p - scanner) meets plane k at t = scanner height / (fall along the ray).
-  for (int k = 0; k < 3; ++k) {
-    const double fall = scanner_height_m_[k] - out.height_m[k];
-    out.meets[k] = fall > 0 && scanner_height_m_[k] > 0;
-    out.at[k] = out.meets[k] ? scanner_height_m_[k] / fall : 0;
-    if (out.at[k] > out.at[out.nearest]) out.nearest = k;
-  }
-  return out;
-}
-
-Eigen::Vector2d FacetPlacer::uv_m(int k, const Eigen::Vector3d& p,
-                                  const PlacedPoint& placed) const {
-  const Eigen::Vector3d from_corner = p - corner_.corner_m;
-  if (domain_ == SelectionDomain::coordinate) return duals_[k] * from_corner;
-  return duals_[k] * (scanner_ + placed.at[k] * (from_corner - scanner_));
-}
-
 double corner_sine(const FacetCorner& corner, int k) {
   return corner.edges[(k + 1) % 3].cross(corner.edges[(k + 2) % 3]).norm();
 }

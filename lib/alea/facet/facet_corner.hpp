@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "alea/core/plane.hpp"
@@ -43,9 +44,31 @@ class FacetPlacer {
   FacetPlacer(const FacetCorner& corner, SelectionDomain domain,
               const Eigen::Vector3d& scanner_position);
 
-  PlacedPoint approach(const Eigen::Vector3d& p) const;
+  PlacedPoint approach(const Eigen::Vector3d& p) const {
+    PlacedPoint out;
+    const Eigen::Vector3d from_corner = p - corner_.corner_m;
+    for (int k = 0; k < 3; ++k) out.height_m[k] = corner_.planes[k].normal.dot(from_corner);
+    if (domain_ == SelectionDomain::coordinate) {
+      out.meets.fill(true);
+      for (int k = 1; k < 3; ++k)
+        if (std::abs(out.height_m[k]) < std::abs(out.height_m[out.nearest])) out.nearest = k;
+      return out;
+    }
+    // The ray scanner + t (p - scanner) meets plane k at t = scanner height / (fall along the ray).
+    for (int k = 0; k < 3; ++k) {
+      const double fall = scanner_height_m_[k] - out.height_m[k];
+      out.meets[k] = fall > 0 && scanner_height_m_[k] > 0;
+      out.at[k] = out.meets[k] ? scanner_height_m_[k] / fall : 0;
+      if (out.at[k] > out.at[out.nearest]) out.nearest = k;
+    }
+    return out;
+  }
   /// Place on facet k along edges[(k+1)%3] and edges[(k+2)%3] from the corner (m).
-  Eigen::Vector2d uv_m(int k, const Eigen::Vector3d& p, const PlacedPoint& placed) const;
+  Eigen::Vector2d uv_m(int k, const Eigen::Vector3d& p, const PlacedPoint& placed) const {
+    const Eigen::Vector3d from_corner = p - corner_.corner_m;
+    if (domain_ == SelectionDomain::coordinate) return duals_[k] * from_corner;
+    return duals_[k] * (scanner_ + placed.at[k] * (from_corner - scanner_));
+  }
 
  private:
   FacetCorner corner_;

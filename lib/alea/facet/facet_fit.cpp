@@ -181,6 +181,30 @@ void fit_members(const Members& members, const FacetFitOptions& options, const F
   out.corner = facet_corner(planes).value_or(corner);
 }
 
+FacetSelection final_selection(const FacetFits& body, const FacetFitOptions& options,
+                               const Eigen::Vector3d& scanner_position) {
+  FacetSelection out;
+  out.domain = domain_of(options);
+  out.scanner_position = scanner_position;
+  out.nearest_plane = options.nearest_plane;
+  out.trim_m = body.trim_m;
+  out.lengths_m = borders_of(body.extents);
+  out.masks = options.masks;
+  return out;
+}
+
+/// Iterates from `start` to the end and describes the facets in `out`.
+Result<FacetFits> fit_selected(const FacetNeighbourhood& about, const FacetSelection& selection,
+                               const FacetFitOptions& options, const State& start, FacetFits out) {
+  const auto result = iterate(about, selection, options, start, max_iterations);
+  if (!result) return result.refusal();
+  out.iterations = result->passes;
+  fit_members(points_of(about, result->members), options, result->state.corner, out);
+  for (int k = 0; k < 3; ++k)
+    for (const std::uint32_t i : result->members[k]) out.indices[k].push_back(about.indices[i]);
+  return out;
+}
+
 }  // namespace
 
 Result<FacetFits> fit_facets(const Cloud& cloud, const std::array<PlaneRegion, 3>& regions,
@@ -200,6 +224,7 @@ Result<FacetFits> fit_facets(const Cloud& cloud, const std::array<PlaneRegion, 3
       cloud, state.corner, rough, std::max(depth_share * edge, options.gate_m.value_or(0)));
 
   FacetFits out;
+  out.corner = state.corner;
   ExtentOptions extent_options;
   extent_options.scanner_position = scanner.value_or(lookout(state.corner));
   extent_options.footprint_m = options.footprint_m;
@@ -217,17 +242,25 @@ Result<FacetFits> fit_facets(const Cloud& cloud, const std::array<PlaneRegion, 3
   state = interior->state;
   measure_body(about, options, extent_options, selection.lengths_m, state, out);
 
-  selection.trim_m = out.trim_m;
-  selection.lengths_m = borders_of(out.extents);
-  selection.nearest_plane = options.nearest_plane;
-  selection.masks = options.masks;
-  const auto result = iterate(about, selection, options, state, max_iterations);
-  if (!result) return result.refusal();
-  out.iterations = result->passes;
-  fit_members(points_of(about, result->members), options, result->state.corner, out);
-  for (int k = 0; k < 3; ++k)
-    for (const std::uint32_t i : result->members[k]) out.indices[k].push_back(about.indices[i]);
-  return out;
+  selection = final_selection(out, options, selection.scanner_position);
+  return fit_selected(about, selection, options, state, std::move(out));
+}
+
+Result<FacetFits> refit_facets(const Cloud& cloud, const FacetFits& before,
+                               const FacetFitOptions& options) {
+  FacetFits out = before;
+  for (auto& indices : out.indices) indices.clear();
+  State state{before.corner, {}};
+  double widest = 0;
+  for (int k = 0; k < 3; ++k) {
+    state.gate_m[k] = options.gate_m.value_or(
+        std::max(least_gate_m, options.gate_sigmas * before.fits[k].rmse_m));
+    widest = std::max(widest, state.gate_m[k]);
+  }
+  const auto about = points_about(cloud, before.corner, borders_of(before.extents), 2 * widest);
+  const Eigen::Vector3d from = options.fit.scanner_position.value_or(lookout(before.corner));
+  return fit_selected(about, final_selection(before, options, from), options, state,
+                      std::move(out));
 }
 
 }  // namespace alea

@@ -54,4 +54,9 @@ struct FacetFits {
 Result<FacetFits> fit_facets(const Cloud& cloud, const std::array<PlaneRegion, 3>& regions,
                              const FacetFitOptions& options);
 
+/// Fits the same facets again with other `masks`: planes, extents, edge radius and trim stay where
+/// `before` has them, and the iteration starts from there. Refusals and errors as fit_facets.
+Result<FacetFits> refit_facets(const Cloud& cloud, const FacetFits& before,
+                               const FacetFitOptions& options);
+
 }  // namespace alea
