@@ -97,6 +97,33 @@ TEST_P(EveryDetector, GivesAPointToOneRegionWithinTheToleranceAtMost) {
   EXPECT_LE(*std::max_element(uses.begin(), uses.end()), 1);
 }
 
+// Whether a region has a member within 4 cm of a point.
+bool reaches(const Cloud& cloud, const PlaneRegion& region, const Eigen::Vector3d& p) {
+  return std::any_of(region.indices.begin(), region.indices.end(), [&](std::uint32_t i) {
+    return (cloud.positions[i] - p).squaredNorm() < 0.04 * 0.04;
+  });
+}
+
+TEST_P(EveryDetector, GivesPointsAtASharedBorderToTheNearestPlane) {
+  const LabelledScan scan = corner_with_box(0.012);
+  const auto regions = detect_planes(scan.cloud, options());
+  std::size_t contested = 0, farther = 0;
+  for (const PlaneRegion& region : regions)
+    for (const std::uint32_t i : region.indices) {
+      const Eigen::Vector3d& p = scan.cloud.positions[i];
+      const double own = std::abs(region.plane.signed_distance(p));
+      for (const PlaneRegion& other : regions) {
+        const double distance = std::abs(other.plane.signed_distance(p));
+        if (&other == &region || distance > 0.006 || !reaches(scan.cloud, other, p)) continue;
+        ++contested;
+        // The last fit moves the planes a little after the points were assigned.
+        farther += own > distance + 5e-4;
+      }
+    }
+  EXPECT_GT(contested, 20u);
+  EXPECT_LE(20 * farther, contested);
+}
+
 TEST_P(EveryDetector, GivesTheSameBitsForAnyOrderOfThePoints) {
   const LabelledScan scan = corner_with_box();
   const auto regions = detect_planes(scan.cloud, options());

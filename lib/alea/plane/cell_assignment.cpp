@@ -28,13 +28,27 @@ class Assignment {
         grown_(grown),
         band_(tolerance / grid.quantum()) {}
 
-  void assign(std::uint32_t leaf, std::vector<Candidate>& candidates,
-              std::vector<std::int32_t>& plane_of_point) const {
-    find_candidates(leaf, candidates);
-    if (candidates.empty()) return;
+  /// Leaves of no plane take the planes of their points as their own from now on.
+  void learn(const PointLabels& labels) {
+    guests_.resize(tree_.leaves.size());
+    parallel_chunks(tree_.leaves.size(), 256, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t leaf = begin; leaf < end; ++leaf) {
+        if (grown_.plane_of_leaf[leaf] >= 0) continue;
+        std::vector<std::int32_t>& planes = guests_[leaf];
+        for (std::uint32_t k = tree_.leaves[leaf].begin; k < tree_.leaves[leaf].end; ++k) {
+          const std::int32_t plane = labels.plane[grid_.points[k].index];
+          if (plane >= 0 && std::find(planes.begin(), planes.end(), plane) == planes.end())
+            planes.push_back(plane);
+        }
+        std::sort(planes.begin(), planes.end());
+      }
+    });
+  }
+
+  void assign(std::uint32_t leaf, std::vector<Candidate>& candidates, PointLabels& labels) const {
+    if (!find_candidates(leaf, candidates)) return;
     const Leaf& own = tree_.leaves[leaf];
-    for (std::uint32_t k = own.begin; k < own.end; ++k)
-      plane_of_point[grid_.points[k].index] = nearest(grid_.points[k], candidates);
+    for (std::uint32_t k = own.begin; k < own.end; ++k) label(grid_.points[k], candidates, labels);
   }
 
  private:
@@ -45,19 +59,31 @@ class Assignment {
     return {plane, g.plane.normal, offset, true, {}, {}};
   }
 
-  void find_candidates(std::uint32_t leaf, std::vector<Candidate>& out) const {
+  /// Whether there is anything to assign: a candidate, and after learning a new one.
+  bool find_candidates(std::uint32_t leaf, std::vector<Candidate>& out) const {
     out.clear();
     const Leaf& own = tree_.leaves[leaf];
     const std::int32_t home = grown_.plane_of_leaf[leaf];
     if (home >= 0) out.push_back(candidate(home, own));
+    bool news = guests_.empty();
     for (std::uint32_t k = adjacency_.first[leaf]; k < adjacency_.first[leaf + 1]; ++k) {
       const std::uint32_t other = adjacency_.neighbours[k];
       const std::int32_t plane = grown_.plane_of_leaf[other];
-      if (plane < 0 || plane == home) continue;
-      Candidate next = candidate(plane, own);
-      limit(next, own, tree_.leaves[other]);
-      out.push_back(next);
+      if (plane >= 0 && plane != home) add_limited(plane, own, other, out);
+      if (guests_.empty()) continue;
+      for (const std::int32_t guest : guests_[other]) {
+        if (guest == home) continue;
+        add_limited(guest, own, other, out);
+        news = true;
+      }
     }
+    return news && !out.empty();
+  }
+
+  void add_limited(std::int32_t plane, const Leaf& own, std::uint32_t other,
+                   std::vector<Candidate>& out) const {
+    out.push_back(candidate(plane, own));
+    limit(out.back(), own, tree_.leaves[other]);
   }
 
   // The box of the neighbour, widened by the smaller leaf's edge.
@@ -74,18 +100,22 @@ class Assignment {
     }
   }
 
-  std::int32_t nearest(const CellPoint& p, const std::vector<Candidate>& candidates) const {
-    std::int32_t best = -1;
+  void label(const CellPoint& p, const std::vector<Candidate>& candidates,
+             PointLabels& labels) const {
+    std::int32_t best = PointLabels::none;
     double least = band_;
+    bool contested = false;
     for (const Candidate& c : candidates) {
       const double distance = std::abs(c.normal.x() * p.local[0] + c.normal.y() * p.local[1] +
                                        c.normal.z() * p.local[2] - c.offset);
+      if (distance > band_ || (!c.everywhere && !inside(p, c))) continue;
+      contested |= best >= 0 && c.plane != best;
       if (distance > least || (distance == least && best >= 0)) continue;
-      if (!c.everywhere && !inside(p, c)) continue;
       least = distance;
       best = c.plane;
     }
-    return best;
+    labels.plane[p.index] = best;
+    labels.contested[p.index] = contested;
   }
 
   static bool inside(const CellPoint& p, const Candidate& c) {
@@ -100,21 +130,27 @@ class Assignment {
   const LeafAdjacency& adjacency_;
   const GrownPlanes& grown_;
   double band_;
+  std::vector<std::vector<std::int32_t>> guests_;
 };
 
 }  // namespace
 
-std::vector<std::int32_t> assign_points(const CellGrid& grid, const CellTree& tree,
-                                        const LeafAdjacency& adjacency, const GrownPlanes& grown,
-                                        double tolerance, std::size_t points) {
-  std::vector<std::int32_t> plane_of_point(points, -1);
-  const Assignment assignment(grid, tree, adjacency, grown, tolerance);
-  parallel_chunks(tree.leaves.size(), 256, [&](std::size_t begin, std::size_t end) {
-    std::vector<Candidate> candidates;
-    for (std::size_t leaf = begin; leaf < end; ++leaf)
-      assignment.assign(static_cast<std::uint32_t>(leaf), candidates, plane_of_point);
-  });
-  return plane_of_point;
+PointLabels assign_points(const CellGrid& grid, const CellTree& tree,
+                          const LeafAdjacency& adjacency, const GrownPlanes& grown,
+                          double tolerance, std::size_t points) {
+  PointLabels labels(points);
+  Assignment assignment(grid, tree, adjacency, grown, tolerance);
+  const auto assign_all = [&] {
+    parallel_chunks(tree.leaves.size(), 256, [&](std::size_t begin, std::size_t end) {
+      std::vector<Candidate> candidates;
+      for (std::size_t leaf = begin; leaf < end; ++leaf)
+        assignment.assign(static_cast<std::uint32_t>(leaf), candidates, labels);
+    });
+  };
+  assign_all();
+  assignment.learn(labels);
+  assign_all();
+  return labels;
 }
 
 }  // namespace alea

@@ -23,7 +23,7 @@ int levels_between(double cell, double tolerance) {
 }
 
 struct Labels {
-  std::vector<std::int32_t> plane_of_point;
+  PointLabels points;
   std::vector<GrownPlane> planes;  ///< from the anchor
   Eigen::Vector3d anchor;
   double cell;
@@ -55,10 +55,12 @@ Labels label(const std::vector<Eigen::Vector3d>& positions, const PlaneDetection
   const LeafAdjacency adjacency = leaf_adjacency(grid, tree);
   const double least_points = static_cast<double>(options.min_points) / 2;
   GrownPlanes grown = grow_planes(tree, adjacency, {tolerance, least_points});
-  Labels out{{}, {}, grid.anchor, grid.cell};
-  out.plane_of_point = assign_points(grid, tree, adjacency, grown, tolerance, positions.size());
-  if (remove_bevels(grown, out.plane_of_point))
-    out.plane_of_point = assign_points(grid, tree, adjacency, grown, tolerance, positions.size());
+  Labels out{assign_points(grid, tree, adjacency, grown, tolerance, positions.size()),
+             {},
+             grid.anchor,
+             grid.cell};
+  if (remove_bevels(grown, out.points.plane))
+    out.points = assign_points(grid, tree, adjacency, grown, tolerance, positions.size());
   out.planes = std::move(grown.planes);
   return out;
 }
@@ -80,7 +82,7 @@ void label_the_rest(const std::vector<Eigen::Vector3d>& positions,
                     const PlaneDetectionOptions& options, Labels& labels) {
   std::vector<std::uint32_t> rest;
   for (std::uint32_t i = 0; i < positions.size(); ++i)
-    if (labels.plane_of_point[i] < 0) rest.push_back(i);
+    if (labels.points.plane[i] < 0) rest.push_back(i);
   if (rest.size() < options.min_points) return;
   std::vector<Eigen::Vector3d> left;
   left.reserve(rest.size());
@@ -94,9 +96,11 @@ void label_the_rest(const std::vector<Eigen::Vector3d>& positions,
     plane.box.translate(shift);
     number.push_back(adopt(plane, before, options.tolerance_m, labels));
   }
-  for (std::size_t k = 0; k < rest.size(); ++k)
-    if (more.plane_of_point[k] >= 0)
-      labels.plane_of_point[rest[k]] = number[static_cast<std::size_t>(more.plane_of_point[k])];
+  for (std::size_t k = 0; k < rest.size(); ++k) {
+    if (more.points.plane[k] < 0) continue;
+    labels.points.plane[rest[k]] = number[static_cast<std::size_t>(more.points.plane[k])];
+    labels.points.contested[rest[k]] = more.points.contested[k];
+  }
 }
 
 }  // namespace
@@ -104,8 +108,7 @@ void label_the_rest(const std::vector<Eigen::Vector3d>& positions,
 std::vector<PlaneRegion> detect_by_cells(const Cloud& cloud, const PlaneDetectionOptions& options) {
   Labels labels = label(cloud.positions, options);
   label_the_rest(cloud.positions, options, labels);
-  return regions_from_labels(cloud, labels.plane_of_point, labels.planes.size(),
-                             options.min_points);
+  return regions_from_labels(cloud, labels.points, labels.planes.size(), options.min_points);
 }
 
 }  // namespace alea

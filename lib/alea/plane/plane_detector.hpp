@@ -43,11 +43,12 @@ struct PlaneDetectionOptions {
 /// Points that lie on one plane and are connected.
 struct PlaneRegion {
   std::vector<std::uint32_t> indices;  ///< into the cloud, ascending
-  /// Orthogonal least squares of these points; the normal points towards `scanner_position` where
-  /// the cloud has one, else its largest component is positive.
+  /// Orthogonal least squares of those of these points that no other plane claims too (within the
+  /// tolerance, about shared borders); the normal points towards `scanner_position` where the cloud
+  /// has one, else its largest component is positive.
   Plane plane;
-  Eigen::Vector3d centroid_m = Eigen::Vector3d::Zero();
-  double rmse_m = 0;  ///< along the normal
+  Eigen::Vector3d centroid_m = Eigen::Vector3d::Zero();  ///< of the same points
+  double rmse_m = 0;                                     ///< along the normal
 };
 
 /// The planes of a cloud, largest first (ties by centroid). A point belongs to one region at most;

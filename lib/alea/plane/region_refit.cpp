@@ -72,28 +72,29 @@ std::vector<PlaneRegion> refitted_regions(const Cloud& cloud, Numbers plane_of_p
   const CellGrid grid = make_cell_grid(cloud.positions, edge, 0);
   const std::vector<Numbers> in_cell = planes_of_cells(grid, plane_of_point);
   const FittedPlanes fitted = fit_members(cloud, plane_of_point, planes, grid.anchor);
-  const auto nearest = [&](const Eigen::Vector3d& p, const Numbers& candidates) {
-    std::int32_t best = -1;
+  PointLabels labels(cloud.size());
+  const auto label = [&](std::uint32_t point, const Numbers& candidates) {
+    const Eigen::Vector3d p = cloud.positions[point] - grid.anchor;
     double least = options.tolerance_m;
     for (const std::int32_t plane : candidates) {
       const auto k = static_cast<std::size_t>(plane);
       const double distance = std::abs(fitted.normals[k].dot(p) - fitted.offsets[k]);
+      if (distance > options.tolerance_m) continue;
+      std::int32_t& best = labels.plane[point];
+      labels.contested[point] |= best >= 0;
       if (distance > least || (distance == least && best >= 0)) continue;
       least = distance;
       best = plane;
     }
-    return best;
   };
   parallel_chunks(grid.cells.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {
       const Numbers candidates = planes_around(grid, in_cell, grid.cells[c]);
-      for (std::uint32_t k = grid.cells[c].begin; k < grid.cells[c].end; ++k) {
-        const std::uint32_t i = grid.points[k].index;
-        plane_of_point[i] = nearest(cloud.positions[i] - grid.anchor, candidates);
-      }
+      for (std::uint32_t k = grid.cells[c].begin; k < grid.cells[c].end; ++k)
+        label(grid.points[k].index, candidates);
     }
   });
-  return regions_from_labels(cloud, plane_of_point, planes, options.min_points);
+  return regions_from_labels(cloud, labels, planes, options.min_points);
 }
 
 }  // namespace alea
