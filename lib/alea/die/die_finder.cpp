@@ -9,6 +9,7 @@
 
 #include "alea/core/error.hpp"
 #include "alea/die/corner_decision.hpp"
+#include "alea/plane/region_decision.hpp"
 
 namespace alea {
 namespace {
@@ -169,13 +170,12 @@ std::optional<Refusal> why_not(const DieCandidate& die, const DieFinderOptions& 
 
 std::vector<Triple> corner_triples(const std::vector<PlaneRegion>& regions,
                                    const std::vector<std::size_t>& sized,
-                                   const DieFinderOptions& options, std::size_t& pairs) {
+                                   const DieFinderOptions& options) {
   const double longest = sorted_edges(options)[2];
   std::vector<Triple> out;
   for (std::size_t a = 0; a < sized.size(); ++a)
     for (std::size_t b = a + 1; b < sized.size(); ++b) {
       if (!may_adjoin(regions[sized[a]], regions[sized[b]], longest)) continue;
-      ++pairs;
       for (std::size_t c = b + 1; c < sized.size(); ++c) {
         const Triple triple{sized[a], sized[b], sized[c]};
         if (may_adjoin(regions[triple[0]], regions[triple[2]], longest) &&
@@ -196,6 +196,25 @@ std::vector<Triple> corner_triples(const std::vector<PlaneRegion>& regions,
   return out;
 }
 
+std::vector<Eigen::Vector3d> pair_places(const std::vector<PlaneRegion>& regions,
+                                         const std::vector<std::size_t>& sized,
+                                         double longest_edge_m) {
+  std::vector<std::pair<double, Eigen::Vector3d>> found;
+  for (std::size_t a = 0; a < sized.size(); ++a)
+    for (std::size_t b = a + 1; b < sized.size(); ++b) {
+      const PlaneRegion &first = regions[sized[a]], &second = regions[sized[b]];
+      if (!may_adjoin(first, second, longest_edge_m)) continue;
+      const double distance = (first.centroid_m - second.centroid_m).norm();
+      found.emplace_back(std::abs(distance - longest_edge_m / std::numbers::sqrt2),
+                         (first.centroid_m + second.centroid_m) / 2);
+    }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Eigen::Vector3d> out;
+  for (const auto& [misfit, place] : found) out.push_back(place);
+  return out;
+}
+
 template <typename T>
 void best_first(std::vector<T>& dice) {
   std::stable_sort(dice.begin(), dice.end(),
@@ -211,7 +230,8 @@ DieSearch search_dice(const Cloud& cloud, const std::vector<PlaneRegion>& region
   const double radius = options.near_radius_m > 0 ? options.near_radius_m : 2 * edges[2];
   const auto sized = facet_sized(cloud, regions, options);
   std::vector<DieCandidate> found;
-  for (const Triple& triple : corner_triples(regions, sized, options, out.adjacent_pairs)) {
+  out.adjacent_pairs_m = pair_places(regions, sized, edges[2]);
+  for (const Triple& triple : corner_triples(regions, sized, options)) {
     const auto facets = fit_facets(
         cloud, {regions[triple[0]], regions[triple[1]], regions[triple[2]]}, options.facets);
     if (!facets) {
@@ -237,21 +257,50 @@ DieSearch search_dice(const Cloud& cloud, const std::vector<PlaneRegion>& region
   return out;
 }
 
-Result<std::vector<DieCandidate>> find_dice(const Cloud& cloud,
-                                            const std::vector<PlaneRegion>& regions,
+namespace {
+
+Result<std::vector<DieCandidate>> result_of(DieSearch search, std::size_t planes,
                                             const DieFinderOptions& options) {
-  DieSearch search = search_dice(cloud, regions, options);
   if (!search.accepted.empty()) return std::move(search.accepted);
   if (!search.rejected.empty()) return search.rejected.front().refusal;
   const std::string size = text("%.3f m", sorted_edges(options)[2]);
-  if (search.adjacent_pairs > 0)
+  if (!search.adjacent_pairs_m.empty())
     return Refusal{RefusalCode::too_few_facets,
                    "only two adjacent planes of about " + size +
                        " were found together, a corner needs three; scan from where three facets "
                        "of the die are seen"};
-  return Refusal{RefusalCode::no_die, "none of the " + std::to_string(regions.size()) +
+  return Refusal{RefusalCode::no_die, "none of the " + std::to_string(planes) +
                                           " planes found makes a die of " + size +
                                           "; check --edge, or narrow the search with --near"};
+}
+
+}  // namespace
+
+Result<std::vector<DieCandidate>> find_dice(const Cloud& cloud,
+                                            const std::vector<PlaneRegion>& regions,
+                                            const DieFinderOptions& options) {
+  return result_of(search_dice(cloud, regions, options), regions.size(), options);
+}
+
+DecidedDice decide_dice(const Cloud& cloud, std::vector<PlaneRegion> regions,
+                        const DieFinderOptions& options, double tolerance_m, std::uint64_t seed) {
+  constexpr std::size_t most_places = 4;
+  constexpr double ball_share = 1.2;  // of the edge: holds a cube about the middle of an edge of it
+  DieSearch search = search_dice(cloud, regions, options);
+  std::vector<Eigen::Vector3d> places = search.adjacent_pairs_m;
+  const bool found = !search.accepted.empty();
+  const std::size_t planes = regions.size();
+  DecidedDice out{std::move(regions), result_of(std::move(search), planes, options)};
+  if (found) return out;
+  places.resize(std::min(places.size(), most_places));
+  for (const Eigen::Vector3d& place : places) {
+    std::vector<PlaneRegion> decided =
+        decide_regions(cloud, out.regions, {place, ball_share * sorted_edges(options)[2]},
+                       {.tolerance_m = tolerance_m, .seed = seed});
+    auto dice = find_dice(cloud, decided, options);
+    if (dice) return {std::move(decided), std::move(dice)};
+  }
+  return out;
 }
 
 }  // namespace alea

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -47,9 +48,9 @@ struct RejectedDie {
 struct DieSearch {
   std::vector<DieCandidate> accepted;  ///< best first
   std::vector<RejectedDie> rejected;   ///< nearest miss first
-  /// Pairs of near-orthogonal, close planes of about the right size: a die of which a third facet
-  /// is missing shows as one.
-  std::size_t adjacent_pairs = 0;
+  /// Between the centroids of near-orthogonal, close planes of about the right size (m), the pair
+  /// whose distance suits the die best first: a die of which a third facet is missing shows as one.
+  std::vector<Eigen::Vector3d> adjacent_pairs_m;
 };
 
 /// The published rule (planes below a size, pairwise dot products near zero, centres close), then
@@ -65,5 +66,18 @@ DieSearch search_dice(const Cloud& cloud, const std::vector<PlaneRegion>& region
 Result<std::vector<DieCandidate>> find_dice(const Cloud& cloud,
                                             const std::vector<PlaneRegion>& regions,
                                             const DieFinderOptions& options);
+
+/// The dice of a scan and the regions that they are made of.
+struct DecidedDice {
+  std::vector<PlaneRegion> regions;
+  Result<std::vector<DieCandidate>> dice;
+};
+
+/// find_dice, and where it finds none although two neighbouring planes of a die's size are there:
+/// CGAL's detector and the exact kernel decide about up to four such places (decide_regions), and
+/// the search is repeated with what they decided. The first search's refusal where that does not
+/// help. `tolerance_m` and `seed` of the detector.
+DecidedDice decide_dice(const Cloud& cloud, std::vector<PlaneRegion> regions,
+                        const DieFinderOptions& options, double tolerance_m, std::uint64_t seed);
 
 }  // namespace alea

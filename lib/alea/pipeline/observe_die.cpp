@@ -82,20 +82,15 @@ Result<PipReading> read_facets(const Cloud& cloud, const FacetFits& facets,
 }
 
 /// Fits again without the pips, which may be recessed or reflect differently.
-FacetFits without_pips(const Cloud& cloud, const std::vector<PlaneRegion>& planes,
-                       const DieCandidate& candidate, const PipReading& reading,
+FacetFits without_pips(const Cloud& cloud, const FacetFits& facets, const PipReading& reading,
                        FacetFitOptions options) {
-  std::array<PlaneRegion, 3> regions;
   for (int k = 0; k < 3; ++k) {
-    const double u_m = candidate.facets.edges_m[(k + 1) % 3],
-                 v_m = candidate.facets.edges_m[(k + 2) % 3];
+    const double u_m = facets.edges_m[(k + 1) % 3], v_m = facets.edges_m[(k + 2) % 3];
     options.masks[k] =
         pip_discs(reading.pips[k], {u_m, v_m}, pip_mask_radius_share * std::min(u_m, v_m));
-    regions[k] = planes[candidate.regions[k]];
   }
-  options.edge_radius_m = candidate.facets.edge_radius_m;
-  Result<FacetFits> masked = fit_facets(cloud, regions, options);
-  return masked ? *std::move(masked) : candidate.facets;
+  Result<FacetFits> masked = refit_facets(cloud, facets, options);
+  return masked ? *std::move(masked) : facets;
 }
 
 DieSighting sighting(const DieCandidate& candidate, const FacetFits& facets,
@@ -131,24 +126,35 @@ void read_candidates(const Cloud& cloud, const FacetFitOptions& fit,
     }
     const FacetFits facets = is_paper(options.method)
                                  ? candidate.facets
-                                 : without_pips(cloud, scan.planes, candidate, *reading, fit);
+                                 : without_pips(cloud, candidate.facets, *reading, fit);
     scan.dice.push_back(sighting(candidate, facets, *reading));
     scan.dice.back().candidate = i;
   }
   if (!scan.dice.empty()) scan.refusal.reset();
 }
 
+/// The published chain has no second look.
+DecidedDice found_dice(const Cloud& cloud, std::vector<PlaneRegion> regions,
+                       const DieFinderOptions& finder) {
+  auto dice = find_dice(cloud, regions, finder);
+  return {std::move(regions), std::move(dice)};
+}
+
 void find_and_read(const Cloud& cloud, const DieFinderOptions& finder,
                    const DieRegistrationOptions& options, ScanSighting& scan) {
   Stopwatch watch;
   scan.refusal.reset();
-  Result<std::vector<DieCandidate>> candidates = find_dice(cloud, scan.planes, finder);
+  DecidedDice decided = is_paper(options.method)
+                            ? found_dice(cloud, std::move(scan.planes), finder)
+                            : decide_dice(cloud, std::move(scan.planes), finder,
+                                          PlaneDetectionOptions{}.tolerance_m, options.seed);
+  scan.planes = std::move(decided.regions);
   scan.facets_s += watch.lap_s();
-  if (!candidates) {
-    scan.refusal = candidates.refusal();
+  if (!decided.dice) {
+    scan.refusal = decided.dice.refusal();
     return;
   }
-  scan.candidates = *std::move(candidates);
+  scan.candidates = *std::move(decided.dice);
   read_candidates(cloud, finder.facets, options, scan);
   scan.pips_s += watch.lap_s();
 }
@@ -165,7 +171,9 @@ ScanSighting observe_die(Cloud& cloud, const DieRegistrationOptions& options,
   cloud.scanner_position = assumed_position(cloud);
   ScanSighting scan;
   Stopwatch watch;
-  scan.planes = detect_planes(cloud, {.detector = options.planes, .seed = options.seed});
+  scan.planes = options.find_planes
+                    ? options.find_planes(cloud)
+                    : detect_planes(cloud, {.detector = options.planes, .seed = options.seed});
   scan.planes_s = watch.lap_s();
   scan.scanner_position_known = cloud.scanner_position.has_value();
   find_and_read(cloud, finder_options(options, near_m, cloud.scanner_position), options, scan);

@@ -77,11 +77,12 @@ std::optional<Refusal> register_pair(const DieRegistrationOptions& options, DieS
   out.warnings.insert(out.warnings.end(), transform->warnings.begin(), transform->warnings.end());
   for (std::string& warning : size_warnings(pair, options))
     out.warnings.push_back(std::move(warning));
-  for (std::size_t i = 0; i < planes.size(); ++i) {
-    out.check_planes.push_back(
-        evaluate_check_plane(master, slave, planes[i], transform->master_from_slave));
-    out.check_planes.back().role = roles[i];
-  }
+  out.check_planes.resize(planes.size());
+  parallel_chunks(planes.size(), 1, [&](std::size_t i, std::size_t) {
+    out.check_planes[i] =
+        evaluate_check_plane(master, slave, planes[i], transform->master_from_slave);
+    out.check_planes[i].role = roles[i];
+  });
   out.timing_s.emplace_back("evaluation", watch.lap_s());
   return std::nullopt;
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -25,6 +26,8 @@ const char* to_string(DieMethod method);
 struct DieRegistrationOptions {
   DieMethod method = DieMethod::closed_form;
   PlaneDetector planes = PlaneDetector::cells;
+  /// Instead of `planes`: somebody else's detector. Runs for both scans at the same time.
+  std::function<std::vector<PlaneRegion>(const Cloud&)> find_planes;
   double edge_m =
       0;  ///< nominal or exact length of the shared edge, corner to corner; 0: not known
   std::optional<std::array<double, 3>> edges_m;  ///< of a cuboid, in any order
