@@ -38,9 +38,10 @@ double status_bytes(const std::string& key) {
   return 0;
 }
 
-void report(benchmark::State& state, const PointSets& sets) {
+void report(benchmark::State& state, const PointSets& sets,
+            const std::vector<Eigen::Vector3d>& normals = {}) {
   const Room& scene = room(static_cast<std::size_t>(state.range(0)));
-  const Recovery r = recovery(scene, sets, least_points(state.range(0)));
+  const Recovery r = recovery(scene, sets, least_points(state.range(0)), normals);
   state.counters["points"] = static_cast<double>(scene.scan.cloud.size());
   state.counters["planes"] = static_cast<double>(r.planes);
   state.counters["found"] = static_cast<double>(r.found);
@@ -71,8 +72,12 @@ void run_detector(benchmark::State& state, PlaneDetector detector, int threads) 
     state.ResumeTiming();
   }
   PointSets sets;
-  for (PlaneRegion& region : regions) sets.push_back(std::move(region.indices));
-  report(state, sets);
+  std::vector<Eigen::Vector3d> normals;
+  for (PlaneRegion& region : regions) {
+    sets.push_back(std::move(region.indices));
+    normals.push_back(region.plane.normal);
+  }
+  report(state, sets, normals);
   state.counters["bytes_per_point"] = peak / static_cast<double>(cloud.size());
 }
 

@@ -45,7 +45,7 @@ const Room& room(std::size_t points) {
 }
 
 Recovery recovery(const Room& room, const std::vector<std::vector<std::uint32_t>>& sets,
-                  std::size_t least) {
+                  std::size_t least, const std::vector<Eigen::Vector3d>& normals) {
   std::vector<std::vector<std::uint32_t>> members(room.planes.size());
   for (std::uint32_t i = 0; i < room.scan.rectangle.size(); ++i)
     members[static_cast<std::size_t>(room.scan.rectangle[i])].push_back(i);
@@ -69,7 +69,9 @@ Recovery recovery(const Room& room, const std::vector<std::vector<std::uint32_t>
     if (members[p].size() < 1000) continue;
     const testing::Rectangle& r = room.planes[p];
     const Eigen::Vector3d truth = r.side_a.cross(r.side_b).normalized();
-    const Eigen::Vector3d fit = fit_region(room.scan.cloud, sets[best[p].set]).plane.normal;
+    const std::size_t set = best[p].set;
+    const Eigen::Vector3d fit =
+        normals.empty() ? fit_region(room.scan.cloud, sets[set]).plane.normal : normals[set];
     const Eigen::Vector3d ideal = fit_region(room.scan.cloud, members[p]).plane.normal;
     const double error = angle_deg(fit, truth);
     out.worst_deg = std::max(out.worst_deg, error);

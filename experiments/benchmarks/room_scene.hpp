@@ -29,7 +29,8 @@ struct Recovery {
   double worst_determined_deg = 0;
   double worst_ideal_deg = 0;  ///< of the fits to exactly the true points
 };
+/// `normals` of the sets where the method gives them; empty: by least squares of the sets.
 Recovery recovery(const Room& room, const std::vector<std::vector<std::uint32_t>>& sets,
-                  std::size_t least);
+                  std::size_t least, const std::vector<Eigen::Vector3d>& normals = {});
 
 }  // namespace alea::benchmarks
