@@ -38,22 +38,6 @@ void name_facets(const std::vector<PublishedScan>& scans, bool second_on_top, Tw
   twin.side = shared.at(second_on_top ? 0 : 1);
 }
 
-// Turns the die so that `top` looks up and `side` along +x, standing on the floor over the origin.
-RigidTransform standing_pose(const DieModel& model, int top, int side) {
-  const std::array<Plane, 6> planes = die_planes(model);
-  const auto axis = [](int pips, const std::array<Plane, 6>& all) {
-    Eigen::Vector3d direction = Eigen::Vector3d::Zero();
-    Eigen::Index largest = 0;
-    all[pips - 1].normal.cwiseAbs().maxCoeff(&largest);
-    direction[largest] = all[pips - 1].normal[largest] > 0 ? 1 : -1;
-    return direction;
-  };
-  const Eigen::Vector3d up = axis(top, planes), x = axis(side, planes);
-  Eigen::Matrix3d die_from_scene;
-  die_from_scene << x, up.cross(x), up;
-  return {die_from_scene.transpose(), {0, 0, model.size_m[die_axis(top)] / 2}};
-}
-
 // A random die whose shared edge has exactly the wanted length.
 Die draw_die(const Twin& twin, const TwinPrior& prior, std::uint64_t seed, std::uint32_t experiment,
              std::uint64_t trial) {
@@ -61,7 +45,8 @@ Die draw_die(const Twin& twin, const TwinPrior& prior, std::uint64_t seed, std::
   model.size_m = Eigen::Vector3d::Constant(twin.true_edge_m);
   model =
       with_random_shape(model, {prior.tilt_sd_rad, prior.offset_sd_m, 0}, seed, experiment, trial);
-  model.scene_from_die = standing_pose(model, twin.top, twin.side);
+  model.scene_from_die = standing_pose(model.chirality, twin.top, twin.side, 0,
+                                       {0, 0, model.size_m[die_axis(twin.top)] / 2});
   Die die = build_die(model);
   for (int i = 0; i < 4; ++i) {
     const double length = edge_length_m(die.body, twin.top, twin.side);

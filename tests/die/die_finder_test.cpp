@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "alea/core/error.hpp"
-#include "alea/die/corner_decision.hpp"
+#include "alea/plane/exact_predicates.hpp"
 #include "tests/support/die_scan.hpp"
 
 namespace alea {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "alea/core/error.hpp"
-#include "alea/die/corner_decision.hpp"
+#include "alea/plane/exact_predicates.hpp"
 #include "alea/plane/region_decision.hpp"
 
 namespace alea {
