@@ -113,19 +113,18 @@ std::optional<double> nominal_edge_m(const DieRegistrationOptions& options, doub
 }
 
 std::vector<MeasuredEdge> measured_edges(const DieSighting& master, const DieSighting& slave) {
-  std::map<std::string, Eigen::Vector2d> sums;  // weight, weighted length
+  std::map<std::string, Eigen::Vector3d> sums;  // weight, weighted length, weighted deviation
   for (const DieSighting* sighting : {&master, &slave}) {
     for (int k = 0; k < 3; ++k) {
       const auto& facets = sighting->die.facets;
       const double weight = 1 / std::max(sighting->edges_sd_m[k] * sighting->edges_sd_m[k], 1e-12);
       auto [sum, is_new] = sums.try_emplace(
-          edge_name(facets[(k + 1) % 3].pips, facets[(k + 2) % 3].pips), Eigen::Vector2d::Zero());
-      sum->second += Eigen::Vector2d(weight, weight * sighting->edges_m[k]);
+          edge_name(facets[(k + 1) % 3].pips, facets[(k + 2) % 3].pips), Eigen::Vector3d::Zero());
+      sum->second += weight * Eigen::Vector3d(1, sighting->edges_m[k], sighting->edges_sd_m[k]);
     }
   }
   std::vector<MeasuredEdge> edges;
-  for (const auto& [name, sum] : sums)
-    edges.push_back({name, sum[1] / sum[0], 1 / std::sqrt(sum[0])});
+  for (const auto& [name, sum] : sums) edges.push_back({name, sum[1] / sum[0], sum[2] / sum[0]});
   return edges;
 }
 

@@ -44,7 +44,8 @@ struct MeasuredEdge {
 };
 
 /// Every edge that either scan sees, in the order of their names; of one seen by both the weighted
-/// mean.
+/// mean. What footprint and edge radius hide of an edge is wrong by the same amount in both scans,
+/// so the mean's standard deviation is the mean of theirs.
 std::vector<MeasuredEdge> measured_edges(const DieSighting& master, const DieSighting& slave);
 
 }  // namespace alea
