@@ -71,6 +71,12 @@ void print_registration(const Registration& registration) {
   if (!registration.master_from_slave) return;
   print_transform(registration);
   if (registration.die) print_die(*registration.die);
+  if (const auto& refined = registration.refinement)
+    fmt::print(
+        "refined by {} on {} calibration planes: turned by {:.5f} deg, the die moved by {:.3f} "
+        "mm\n",
+        refined->method, refined->planes, refined->rotation_rad * deg_per_rad,
+        refined->translation_m.norm() * 1e3);
   print_check_planes(registration.check_planes);
 }
 

@@ -5,17 +5,16 @@
 #include <array>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <numbers>
-#include <sstream>
 
 #include "alea/core/error.hpp"
 #include "alea/core/parallel.hpp"
 #include "alea/io/cloud_file.hpp"
 #include "alea/pipeline/die_stages.hpp"
 #include "alea/report/die_page.hpp"
+#include "experiments/command/centroid_file.hpp"
 #include "experiments/command/die_file.hpp"
 #include "experiments/command/noise_file.hpp"
 #include "experiments/command/reading.hpp"
@@ -34,6 +33,7 @@ struct DieArguments {
   std::string shape_file;
   std::string method = "closed_form";
   std::string planes;
+  std::string refine = "none";
   bool calibrate = false;
   std::string chirality = "clockwise";
   double tilt_prior_deg = 0;
@@ -46,6 +46,8 @@ struct DieArguments {
 const std::map<std::string, DieMethod> methods{{"paper", DieMethod::paper},
                                                {"paper_literal", DieMethod::paper_literal},
                                                {"closed_form", DieMethod::closed_form}};
+const std::map<std::string, Refinement> refinements{
+    {"none", Refinement::none}, {"planes", Refinement::planes}, {"icp", Refinement::icp}};
 constexpr double smallest_edge_m = 0.02, largest_edge_m = 10;
 
 void check_edge(double edge_m, const char* option) {
@@ -59,31 +61,6 @@ std::optional<Eigen::Vector3d> point(const std::string& option, const std::strin
   return parsed ? std::optional<Eigen::Vector3d>(
                       Eigen::Vector3d((*parsed)[0], (*parsed)[1], (*parsed)[2]))
                 : std::nullopt;
-}
-
-std::vector<Eigen::Vector3d> read_centroids(const std::string& path) {
-  if (path.empty()) return {};
-  std::ifstream file(path);
-  if (!file)
-    throw input_error(
-        fmt::format("{}: cannot read; --check-planes needs a file of centroids", path));
-  std::vector<Eigen::Vector3d> centroids;
-  int number = 0;
-  for (std::string line; std::getline(file, line);) {
-    ++number;
-    if (line.find_first_not_of(" \t\r") == std::string::npos || line[0] == '#') continue;
-    std::istringstream words(line);
-    Eigen::Vector3d c;
-    std::string rest;
-    if (!(words >> c.x() >> c.y() >> c.z()) || words >> rest || !c.allFinite())
-      throw input_error(
-          fmt::format("{}: line {}: '{}' is not a centroid; write x y z in metres, master frame",
-                      path, number, line));
-    centroids.push_back(c);
-  }
-  if (centroids.empty())
-    throw input_error(fmt::format("{}: no centroid; write one x y z a line, in metres", path));
-  return centroids;
 }
 
 DieRegistrationOptions registration_options(const DieArguments& arguments) {
@@ -116,7 +93,9 @@ DieRegistrationOptions registration_options(const DieArguments& arguments) {
   if (arguments.tilt_prior_deg > 0)
     options.tilt_prior_rad = arguments.tilt_prior_deg * std::numbers::pi / 180;
   options.near_m = point("--near", arguments.near);
-  options.check_plane_centroids_m = read_centroids(arguments.check_planes_file);
+  if (!arguments.check_planes_file.empty())
+    options.check_plane_centroids_m = read_centroid_file(arguments.check_planes_file);
+  options.refine = refinements.at(arguments.refine);
   if (!arguments.noise_file.empty()) options.noise = read_noise_file(arguments.noise_file);
   options.seed = arguments.common.seed;
   return options;
@@ -194,6 +173,11 @@ void add_register_die(CLI::App& parent, int& exit_code) {
   app->add_option("--planes", a.planes,
                   "Plane detector (default: cells; ndt_ransac for the paper's methods)")
       ->check(CLI::IsMember({"cells", "efficient_ransac", "region_growing", "ndt_ransac"}));
+  app->add_option("--refine", a.refine,
+                  "Fine registration after the die on half of the planes that both scans see "
+                  "(never the check planes): planes, or point-to-plane icp on their points")
+      ->check(CLI::IsMember({"none", "planes", "icp"}))
+      ->capture_default_str();
   app->add_flag("--calibrate", a.calibrate,
                 "Estimate the edge length on planes that both scans see");
   app->add_option("--chirality", a.chirality,

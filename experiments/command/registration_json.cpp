@@ -78,6 +78,17 @@ json die_json(const DieReport& die) {
        {{"master", vector_json(die.corner_master_m)}, {"slave", vector_json(die.corner_slave_m)}}}};
 }
 
+json refinement_json(const std::optional<RefinementReport>& refinement) {
+  if (!refinement) return nullptr;
+  return {{"method", refinement->method},
+          {"planes", refinement->planes},
+          {"pairs", refinement->pairs},
+          {"iterations", refinement->iterations},
+          {"rotation_deg", refinement->rotation_rad * deg_per_rad},
+          {"translation_m", vector_json(refinement->translation_m)},
+          {"about_m", vector_json(refinement->about_m)}};
+}
+
 }  // namespace
 
 json check_plane_json(const CheckPlane& plane) {
@@ -118,6 +129,7 @@ json registration_json(const Registration& registration, std::uint64_t seed) {
           {"master_from_slave", transform_json(registration)},
           {"die", registration.die ? die_json(*registration.die) : json(nullptr)},
           {"ambiguity", ambiguity},
+          {"refinement", refinement_json(registration.refinement)},
           {"check_planes", planes},
           {"timing_s", timing}};
 }

@@ -2,8 +2,10 @@
 
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "alea/core/parallel.hpp"
+#include "alea/io/atomic_file.hpp"
 #include "experiments/command/command.hpp"
 #include "experiments/command/reproduction_json.hpp"
 #include "experiments/die/reproduce_die.hpp"
@@ -25,7 +27,10 @@ int reproduce(const ReproduceOptions& options) {
   const std::string folder = (fs::path(options.out) / "die").string();
   const experiments::die::Reproduction result =
       experiments::die::reproduce_die({folder, options.smoke, options.common.seed, progress});
-  write_json(options.common, reproduction_json(result.tables, options.common.seed, options.smoke));
+  const nlohmann::json document =
+      reproduction_json(result.tables, options.common.seed, options.smoke);
+  write_file_atomically(fs::path(folder) / "tables.json", document.dump(2) + "\n");
+  write_json(options.common, document);
   if (options.common.json == "-") return exit_done;
   for (const experiments::ResultTable& table : result.tables)
     fmt::print("{}\n", experiments::as_text(table));

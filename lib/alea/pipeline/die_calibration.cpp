@@ -8,11 +8,11 @@
 
 #include "alea/core/error.hpp"
 #include "alea/die/calibration.hpp"
+#include "alea/pipeline/check_plane_roles.hpp"
 
 namespace alea {
 namespace {
 
-constexpr double named_plane_reach_m = 1.0;
 constexpr double search_half_width = 0.1;  // of the nominal length; the paper names no interval
 constexpr double search_tolerance_m = 1e-5;
 
@@ -103,9 +103,8 @@ Result<DieTransform> calibrate_linearly(const DiePair& pair, const std::vector<C
                                         const std::vector<CheckPlaneRole>& roles,
                                         const DieRegistrationOptions& options) {
   std::vector<PlanePair> calibration;
-  for (std::size_t i = 0; i < planes.size(); ++i)
-    if (roles[i] == CheckPlaneRole::calibration)
-      calibration.push_back({planes[i].fit_master, planes[i].fit_slave});
+  for (const CommonPlane& plane : planes_with_role(planes, roles, CheckPlaneRole::calibration))
+    calibration.push_back({plane.fit_master, plane.fit_slave});
   if (calibration.empty())
     return Refusal{
         RefusalCode::unobservable,
@@ -134,28 +133,13 @@ Result<DieTransform> calibrate_linearly(const DiePair& pair, const std::vector<C
 std::vector<CheckPlaneRole> plane_roles(const std::vector<CommonPlane>& planes,
                                         const DieRegistrationOptions& options) {
   const bool circular = options.method != DieMethod::closed_form;
+  const bool calibrates = (options.calibrate && !circular) || options.refine != Refinement::none;
   std::vector<CheckPlaneRole> roles(planes.size(), CheckPlaneRole::check);
   if (!options.check_plane_centroids_m.empty()) {
-    roles.assign(planes.size(), options.calibrate && !circular ? CheckPlaneRole::calibration
-                                                               : CheckPlaneRole::check);
-    for (const Eigen::Vector3d& centroid : options.check_plane_centroids_m) {
-      const auto distance_m = [&](const CommonPlane& plane) {
-        return (plane.fit_master.centroid_m - centroid).norm() +
-               10 * std::abs(plane.fit_master.plane.signed_distance(centroid));
-      };
-      const auto nearest = std::min_element(
-          planes.begin(), planes.end(),
-          [&](const auto& a, const auto& b) { return distance_m(a) < distance_m(b); });
-      if (nearest == planes.end() || distance_m(*nearest) > named_plane_reach_m)
-        throw input_error(fmt::format(
-            "--check-planes: no plane that both scans see is near ({}, {}, {}) m; run once "
-            "without it and take centroids from check_planes",
-            centroid.x(), centroid.y(), centroid.z()));
-      roles[static_cast<std::size_t>(nearest - planes.begin())] = CheckPlaneRole::check;
-    }
-    return roles;
+    const auto named = named_check_planes(planes, options.check_plane_centroids_m);
+    return calibrates ? named : roles;
   }
-  if (!options.calibrate || circular) return roles;
+  if (!calibrates) return roles;
   for (std::size_t rank = 1; rank <= planes.size(); rank += 2)
     roles[rank - 1] = CheckPlaneRole::calibration;
   return roles;

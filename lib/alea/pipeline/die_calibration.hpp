@@ -9,9 +9,9 @@
 namespace alea {
 
 /// Which common planes calibrate and which check: `--check-planes` names the check planes;
-/// otherwise with `calibrate` odd ranks calibrate and even ranks check; otherwise all check. The
-/// paper's methods calibrate on all and check on all. Throws Error(input) for a named centroid that
-/// no common plane is near.
+/// otherwise with `calibrate` or `refine` odd ranks calibrate and even ranks check; otherwise all
+/// check. The paper's methods calibrate on all and check on all. Throws Error(input) for a named
+/// centroid that no common plane is near.
 std::vector<CheckPlaneRole> plane_roles(const std::vector<CommonPlane>& planes,
                                         const DieRegistrationOptions& options);
 

@@ -5,6 +5,7 @@
 #include "alea/cloud/canonical_order.hpp"
 #include "alea/core/error.hpp"
 #include "alea/core/parallel.hpp"
+#include "alea/pipeline/check_plane_roles.hpp"
 #include "alea/pipeline/die_calibration.hpp"
 #include "alea/pipeline/die_pair.hpp"
 #include "alea/pipeline/die_report.hpp"
@@ -47,6 +48,25 @@ void add_sighting_notes(const ScanSighting& master, const ScanSighting& slave, R
   out.timing_s.emplace_back("pips", std::max(master.pips_s, slave.pips_s));
 }
 
+/// The fine registration that was asked for, on the calibration planes; a warning where they cannot
+/// carry one.
+void refine(const DieRegistrationOptions& options, const DieStages& stages,
+            const std::vector<CheckPlaneRole>& roles, const Eigen::Vector3d& about_m,
+            Registration& out) {
+  if (options.refine == Refinement::none) return;
+  const std::vector<CommonPlane> calibration =
+      planes_with_role(stages.planes, roles, CheckPlaneRole::calibration);
+  const Result<RefinedTransform> refined = refine_registration(
+      options.refine, stages.master, stages.slave, calibration, *out.master_from_slave, about_m);
+  if (!refined) {
+    out.warnings.push_back("not_refined: " + refined.refusal().message);
+    return;
+  }
+  out.master_from_slave = refined->master_from_slave;
+  if (out.covariance) out.covariance = moved_to(refined->covariance, out.covariance->about_m);
+  out.refinement = refined->report;
+}
+
 /// From the die that both scans mean to the transform and its check; empty, or why it is refused.
 std::optional<Refusal> register_pair(const DieRegistrationOptions& options, DieStages& stages,
                                      Registration& out) {
@@ -77,10 +97,11 @@ std::optional<Refusal> register_pair(const DieRegistrationOptions& options, DieS
   out.warnings.insert(out.warnings.end(), transform->warnings.begin(), transform->warnings.end());
   for (std::string& warning : size_warnings(pair, options))
     out.warnings.push_back(std::move(warning));
+  refine(options, stages, roles, transform->centre_m, out);
   out.check_planes.resize(planes.size());
   parallel_chunks(planes.size(), 1, [&](std::size_t i, std::size_t) {
     out.check_planes[i] =
-        evaluate_check_plane(master, slave, planes[i], transform->master_from_slave);
+        evaluate_check_plane(master, slave, planes[i], *out.master_from_slave);
     out.check_planes[i].role = roles[i];
   });
   out.timing_s.emplace_back("evaluation", watch.lap_s());

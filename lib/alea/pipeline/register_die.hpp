@@ -10,6 +10,7 @@
 #include "alea/core/cloud.hpp"
 #include "alea/core/noise_model.hpp"
 #include "alea/die/die_shape.hpp"
+#include "alea/pipeline/refinement.hpp"
 #include "alea/pipeline/registration.hpp"
 #include "alea/plane/plane_detector.hpp"
 
@@ -40,7 +41,8 @@ struct DieRegistrationOptions {
   std::optional<double> tilt_prior_rad;   ///< standard deviation of the facets' tilts
   std::optional<Eigen::Vector3d> near_m;  ///< where the die is, roughly, in the master frame
   std::vector<Eigen::Vector3d>
-      check_plane_centroids_m;  ///< master frame; then the other planes calibrate
+      check_plane_centroids_m;           ///< master frame; then the other planes calibrate
+  Refinement refine = Refinement::none;  ///< after the die, on the calibration planes
   NoiseModel noise;
   std::uint64_t seed = 1;
 };

@@ -43,6 +43,17 @@ struct AmbiguityReport {
   double log_likelihood_margin = 0;  ///< of the answer over the runner-up
 };
 
+/// What a fine registration on calibration planes changed.
+struct RefinementReport {
+  std::string method;      ///< "planes" or "icp"
+  std::size_t planes = 0;  ///< that it used; never check planes
+  std::size_t pairs = 0;   ///< of points for icp, of planes for planes
+  int iterations = 0;
+  double rotation_rad = 0;                                  ///< angle of the change
+  Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();  ///< change of the place `about_m`
+  Eigen::Vector3d about_m = Eigen::Vector3d::Zero();        ///< the die's centre, master frame
+};
+
 /// The result of any registration of two scans.
 struct Registration {
   std::string method;
@@ -52,6 +63,7 @@ struct Registration {
   std::optional<TransformCovariance> covariance;  ///< left perturbation in the master frame
   std::optional<DieReport> die;
   std::optional<AmbiguityReport> ambiguity;
+  std::optional<RefinementReport> refinement;  ///< where it was asked for and possible
   std::vector<CheckPlane> check_planes;
   std::vector<std::pair<std::string, double>> timing_s;  ///< stages in order, "total" last
 };
