@@ -63,5 +63,7 @@ void add_simulate(CLI::App& app, int& exit_code);
 void add_calibrate(CLI::App& app, int& exit_code);
 void add_plan(CLI::App& app, int& exit_code);
 void add_register(CLI::App& app, int& exit_code);
+void add_measure(CLI::App& app, int& exit_code);
+void add_print(CLI::App& app, int& exit_code);
 
 }  // namespace alea::command

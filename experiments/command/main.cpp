@@ -64,6 +64,8 @@ int run(int argc, char** argv) {
            add_plan,
            add_calibrate,
            add_register,
+           add_measure,
+           add_print,
            add_acceptance,
            add_reproduce,
            add_sweep,

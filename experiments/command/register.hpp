@@ -10,5 +10,6 @@ void add_register_spheres(CLI::App& parent, int& exit_code);
 void add_register_markerless(CLI::App& parent, int& exit_code);
 void add_register_network(CLI::App& parent, int& exit_code);
 void add_register_planes(CLI::App& parent, int& exit_code);
+void add_register_checkerboards(CLI::App& parent, int& exit_code);
 
 }  // namespace alea::command

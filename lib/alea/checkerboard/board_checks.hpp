@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "alea/checkerboard/board_fit.hpp"
+#include "alea/core/refusal.hpp"
+
+namespace alea {
+
+/// How well the cells agree with the pattern: pairs of cells side by side whose mean intensities
+/// differ the right way.
+struct CellPairs {
+  int right = 0, seen = 0, all = 0;
+};
+CellPairs cell_pairs(const BoardSpec& board, std::span<const Eigen::Vector2d> places_m,
+                     std::span<const float> intensity, const BoardFit& fit);
+
+/// Refusal no_pattern where the intensities do not show the board: on small boards a single step or
+/// a shadow correlates up to 0.58 with the pattern, so that every pair must be right; on larger
+/// ones three quarters of very many.
+std::optional<Refusal> check_pattern(const BoardSpec& board,
+                                     std::span<const Eigen::Vector2d> places_m,
+                                     std::span<const float> intensity, const BoardFit& fit);
+
+/// Width and height of what looks like the board (m): from its middle, each way, to where the
+/// pattern of the last column or row ends, because points end or cells stop alternating.
+struct BoardExtent {
+  Eigen::Vector2d size_m = Eigen::Vector2d::Zero();
+  bool continues = false;  ///< the pattern goes on beyond the outline as on a board of more cells
+};
+BoardExtent board_extent(const BoardSpec& board, std::span<const Eigen::Vector2d> places_m,
+                         std::span<const float> intensity, const BoardFit& fit, double spacing_m);
+
+/// Refusal size_mismatch where the extent differs by more than 15 % of the side plus one spacing.
+std::optional<Refusal> check_size(const BoardSpec& board, std::span<const Eigen::Vector2d> places_m,
+                                  std::span<const float> intensity, const BoardFit& fit,
+                                  double spacing_m);
+
+}  // namespace alea

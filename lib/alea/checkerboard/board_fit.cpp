@@ -1,0 +1,334 @@
+#include "alea/checkerboard/board_fit.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace alea {
+namespace {
+
+using Row = Eigen::Matrix<double, BoardFit::parameters, 1>;
+using Matrix = BoardFit::Covariance;
+
+struct Model {
+  double value = 0;          ///< expected intensity
+  double jitter_factor = 0;  ///< squared gradient of it, 1/m^2
+  Row row = Row::Zero();     ///< derivatives
+};
+
+/// Expected intensity of a place and its derivatives; those by parameters that are fixed stay zero.
+class Expectation {
+ public:
+  Expectation(const BoardSpec& board, const BoardFit& fit, const BoardFitOptions& options)
+      : board_{board.columns, board.rows, fit.cell_m},
+        fit_(fit),
+        options_(options),
+        cosine_(std::cos(fit.pose.angle_rad)),
+        sine_(std::sin(fit.pose.angle_rad)) {}
+
+  Eigen::Vector2d on_board(const Eigen::Vector2d& place) const {
+    const Eigen::Vector2d from = place - fit_.pose.centre_m;
+    return {cosine_ * from.x() + sine_ * from.y(), -sine_ * from.x() + cosine_ * from.y()};
+  }
+
+  Model at(const Eigen::Vector2d& on_board_m) const {
+    const BlurredPattern pattern = blurred_pattern(board_, on_board_m, fit_.blur_m);
+    const double half = fit_.half_contrast;
+    Model model;
+    model.value = fit_.mean + half * pattern.value + fit_.slope.dot(on_board_m);
+    model.row[5] = 1;
+    model.row[6] = pattern.value;
+    if (options_.free_slope) model.row.tail<2>() = on_board_m;
+    Eigen::Vector2d gradient = fit_.slope;
+    if (!pattern.flat) {
+      gradient += half * pattern.by_place;
+      model.jitter_factor = gradient.squaredNorm();
+      model.row.segment<2>(3) = half * pattern.by_blur;
+      if (options_.free_cell) model.row[7] = half * pattern.by_cell;
+    }
+    if (!pattern.flat || options_.free_slope) {
+      model.row[0] = -(cosine_ * gradient.x() - sine_ * gradient.y());
+      model.row[1] = -(sine_ * gradient.x() + cosine_ * gradient.y());
+      model.row[2] = gradient.x() * on_board_m.y() - gradient.y() * on_board_m.x();
+    }
+    return model;
+  }
+
+ private:
+  BoardSpec board_;
+  const BoardFit& fit_;
+  const BoardFitOptions& options_;
+  double cosine_, sine_;
+};
+
+struct Sample {
+  Eigen::Vector2d place;
+  double intensity;
+};
+
+double median(std::vector<double>& values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+class Fitter {
+ public:
+  Fitter(const BoardSpec& board, const BoardFitOptions& options)
+      : board_(board), options_(options) {}
+
+  BoardFit run(std::span<const Eigen::Vector2d> places, std::span<const float> intensity,
+               const BoardPose2& start) {
+    begin(places, intensity, start);
+    return rounds(places, intensity);
+  }
+
+  BoardFit improve(std::span<const Eigen::Vector2d> places, std::span<const float> intensity,
+                   const BoardFit& earlier, const BoardPose2& start) {
+    fit_ = earlier;
+    fit_.pose = start;
+    return rounds(places, intensity);
+  }
+
+ private:
+  BoardFit rounds(std::span<const Eigen::Vector2d> places, std::span<const float> intensity) {
+    for (int round = 0; round < 2; ++round) {
+      select(places, intensity);
+      if (samples_.size() < 12) return fit_;
+      update_noise();
+      iterate(round == 1 && options_.precise);
+    }
+    if (!options_.precise) return fit_;
+    update_noise();
+    add_covariance();
+    return fit_;
+  }
+
+  void begin(std::span<const Eigen::Vector2d> places, std::span<const float> intensity,
+             const BoardPose2& start) {
+    fit_.pose = start;
+    fit_.cell_m = board_.cell_m;
+    fit_.blur_m = Eigen::Vector2d::Constant(std::max(0.1 * board_.cell_m, least_blur()));
+    std::array<double, 2> sum{}, count{};
+    const Expectation expectation(board_, fit_, options_);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const Eigen::Vector2d at = expectation.on_board(places[i]);
+      if (!inside(at, 0)) continue;
+      const int light = pattern_sign(board_, at) > 0 ? 1 : 0;
+      sum[light] += intensity[i];
+      count[light] += 1;
+    }
+    const double dark = sum[0] / std::max(count[0], 1.0);
+    const double light = sum[1] / std::max(count[1], 1.0);
+    fit_.mean = (dark + light) / 2;
+    fit_.half_contrast = (light - dark) / 2;
+  }
+
+  double least_blur() const { return std::max(0.25 * options_.spacing_m, 1e-3 * board_.cell_m); }
+
+  bool inside(const Eigen::Vector2d& at, double margin_m) const {
+    return std::abs(at.x()) <= board_.side_m() / 2 - margin_m &&
+           std::abs(at.y()) <= board_.height_m() / 2 - margin_m;
+  }
+
+  void select(std::span<const Eigen::Vector2d> places, std::span<const float> intensity) {
+    const double margin_m = std::clamp(2.5 * fit_.blur_m.maxCoeff(),
+                                       options_.margin_cells * board_.cell_m, 0.3 * board_.cell_m);
+    const Expectation expectation(board_, fit_, options_);
+    samples_.clear();
+    for (std::size_t i = 0; i < places.size(); ++i)
+      if (inside(expectation.on_board(places[i]), margin_m))
+        samples_.push_back({places[i], intensity[i]});
+    fit_.points = samples_.size();
+  }
+
+  /// Intensity noise from points away from edges, jitter from what is left near them.
+  void update_noise() {
+    const Expectation expectation(board_, fit_, options_);
+    std::vector<double> flat, all;
+    std::vector<std::pair<double, double>> near_edges;  // squared residual, jitter factor
+    const double steep = 1e-3 * fit_.half_contrast / board_.cell_m;
+    for (const Sample& sample : samples_) {
+      const Model model = expectation.at(expectation.on_board(sample.place));
+      const double residual = sample.intensity - model.value;
+      all.push_back(std::abs(residual));
+      if (model.jitter_factor <= steep * steep)
+        flat.push_back(std::abs(residual));
+      else
+        near_edges.emplace_back(residual * residual, model.jitter_factor);
+    }
+    const double floor = 1e-4 * std::abs(fit_.half_contrast) + 1e-12;
+    const bool few_flat = flat.size() < 20;
+    fit_.intensity_sd = std::max(1.4826 * median(few_flat ? all : flat), floor);
+    fit_.place_sd_m = 0;
+    if (few_flat) return;
+    const double noise = fit_.intensity_sd * fit_.intensity_sd;
+    for (int round = 0; round < 3; ++round) {  // clipped at three standard deviations
+      const double jitter = fit_.place_sd_m * fit_.place_sd_m;
+      double top = 0, bottom = 0;
+      for (const auto& [squared, factor] : near_edges) {
+        const double expected = noise + jitter * factor;
+        const double clipped = round == 0 ? squared : std::min(squared, 9 * expected);
+        top += (clipped - noise) * factor / (expected * expected);
+        bottom += factor * factor / (expected * expected);
+      }
+      fit_.place_sd_m = bottom > 0 ? std::sqrt(std::max(top / bottom, 0.0)) : 0;
+    }
+  }
+
+  double variance(const Model& model) const {
+    return fit_.intensity_sd * fit_.intensity_sd +
+           fit_.place_sd_m * fit_.place_sd_m * model.jitter_factor;
+  }
+
+  struct Sums {
+    Matrix normal_matrix = Matrix::Zero(), scatter = Matrix::Zero(), fisher = Matrix::Zero();
+    Row right = Row::Zero();
+    double cost = 0;
+  };
+
+  static constexpr double huber = 2.0;
+
+  double cost_of(double standardised) const {
+    const double size = std::abs(standardised);
+    return size <= huber ? size * size : huber * (2 * size - huber);
+  }
+
+  Sums sums(bool with_scatter) const {
+    const Expectation expectation(board_, fit_, options_);
+    Sums total;
+    for (const Sample& sample : samples_) {
+      const Model model = expectation.at(expectation.on_board(sample.place));
+      const double v = variance(model), residual = sample.intensity - model.value;
+      const double size = std::abs(residual) / std::sqrt(v);
+      const double weight = (size <= huber ? 1 : huber / size) / v;
+      // The sums of flat points touch mean and contrast only.
+      if (model.jitter_factor == 0 && !options_.free_slope) {
+        add_flat(model, weight, residual, v, with_scatter, total);
+      } else {
+        total.normal_matrix.noalias() += (weight * model.row) * model.row.transpose();
+        total.right += (weight * residual) * model.row;
+        if (with_scatter) {
+          const double psi = weight * residual;
+          total.scatter.noalias() += (psi * psi * model.row) * model.row.transpose();
+          total.fisher.noalias() += (model.row / v) * model.row.transpose();
+        }
+      }
+      total.cost += cost_of(size);
+    }
+    return total;
+  }
+
+  static void add_flat(const Model& model, double weight, double residual, double v,
+                       bool with_scatter, Sums& total) {
+    const Eigen::Vector2d row = model.row.segment<2>(5);
+    total.normal_matrix.block<2, 2>(5, 5) += weight * row * row.transpose();
+    total.right.segment<2>(5) += (weight * residual) * row;
+    if (!with_scatter) return;
+    const double psi = weight * residual;
+    total.scatter.block<2, 2>(5, 5) += psi * psi * row * row.transpose();
+    total.fisher.block<2, 2>(5, 5) += row * row.transpose() / v;
+  }
+
+  std::vector<int> estimated() const {
+    std::vector<int> which{0, 1, 2, 3, 4, 5, 6};
+    if (options_.free_cell) which.push_back(7);
+    if (options_.free_slope) which.insert(which.end(), {8, 9});
+    return which;
+  }
+
+  BoardFit moved(const Row& step) const {
+    BoardFit next = fit_;
+    next.pose.centre_m += step.head<2>();
+    next.pose.angle_rad += step[2];
+    for (int k = 0; k < 2; ++k)
+      next.blur_m[k] = std::clamp(fit_.blur_m[k] + step[3 + k], least_blur(), 0.6 * board_.cell_m);
+    next.mean += step[5];
+    next.half_contrast += step[6];
+    next.cell_m = std::clamp(fit_.cell_m + step[7], 0.8 * board_.cell_m, 1.2 * board_.cell_m);
+    next.slope += step.tail<2>();
+    return next;
+  }
+
+  void iterate(bool to_the_end) {
+    const int most = to_the_end ? 20 : 4;
+    const double least_m = (to_the_end ? 1e-5 : 1e-2) * board_.cell_m;
+    const std::vector<int> which = estimated();
+    double damping = 1e-4;
+    fit_.converged = false;
+    Sums now = sums(false);
+    for (int k = 0; k < most; ++k) {
+      Eigen::MatrixXd matrix = now.normal_matrix(which, which);
+      matrix.diagonal() *= 1 + damping;
+      matrix.diagonal().array() += 1e-300;
+      Row step = Row::Zero();
+      const Eigen::VectorXd right = now.right(which);
+      const Eigen::VectorXd solved = matrix.ldlt().solve(right);
+      step(which) = solved;
+      if (!step.allFinite()) return;
+      // Never more than a quarter of a cell at once, so as not to hop to the next edge.
+      const double stride = step.head<2>().norm() / (0.25 * board_.cell_m);
+      if (stride > 1) step /= stride;
+      const BoardFit before = fit_;
+      fit_ = moved(step);
+      const Sums next = sums(false);
+      if (next.cost > now.cost) {
+        fit_ = before;
+        damping *= 10;
+        if (damping > 1e6) return;
+        continue;
+      }
+      damping = std::max(damping * 0.2, 1e-9);
+      const bool settled =
+          step.head<2>().norm() < least_m && std::abs(step[2]) * board_.side_m() < least_m;
+      now = next;
+      if (settled) {
+        fit_.converged = true;
+        return;
+      }
+    }
+  }
+
+  void add_covariance() {
+    const std::vector<int> which = estimated();
+    const Sums total = sums(true);
+    const auto unknowns = static_cast<Eigen::Index>(which.size());
+    const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(unknowns, unknowns);
+    const auto inverse_of = [&](const Matrix& matrix) -> Eigen::MatrixXd {
+      const Eigen::MatrixXd part = matrix(which, which);
+      return part.ldlt().solve(unit);
+    };
+    const Eigen::MatrixXd inverse = inverse_of(total.normal_matrix);
+    const Eigen::MatrixXd scatter = total.scatter(which, which);
+    const double n = static_cast<double>(samples_.size());
+    const double degrees = n / std::max(n - static_cast<double>(unknowns), 1.0);
+    const Eigen::MatrixXd sandwich = degrees * inverse * scatter * inverse;
+    fit_.covariance(which, which) = sandwich;
+    fit_.bound(which, which) = inverse_of(total.fisher);
+  }
+
+  const BoardSpec& board_;
+  const BoardFitOptions& options_;
+  BoardFit fit_;
+  std::vector<Sample> samples_;
+};
+
+}  // namespace
+
+BoardFit fit_board(const BoardSpec& board, std::span<const Eigen::Vector2d> places_m,
+                   std::span<const float> intensity, const BoardPose2& start,
+                   const BoardFitOptions& options) {
+  return Fitter(board, options).run(places_m, intensity, start);
+}
+
+BoardFit improve_fit(const BoardSpec& board, std::span<const Eigen::Vector2d> places_m,
+                     std::span<const float> intensity, const BoardFit& earlier,
+                     const BoardPose2& start, const BoardFitOptions& options) {
+  return Fitter(board, options).improve(places_m, intensity, earlier, start);
+}
+
+}  // namespace alea

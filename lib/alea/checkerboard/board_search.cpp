@@ -1,0 +1,262 @@
+#include "alea/checkerboard/board_search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "alea/core/parallel.hpp"
+
+namespace alea {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// Sums over the points of one outline: s is the pattern's sign, i the intensity.
+struct OutlineSums {
+  double n = 0, i = 0, ii = 0, s = 0, si = 0;
+
+  double correlation() const {
+    const double ss_about = n - s * s / n, ii_about = ii - i * i / n;
+    if (!(n > 2) || !(ss_about > 1e-9 * n) || !(ii_about > 1e-12 * n)) return 0;
+    return (si - s * i / n) / std::sqrt(ss_about * ii_about);
+  }
+  double gain() const {
+    const double r = correlation();
+    // Capped: on data without noise the logarithm alone would decide.
+    return -0.5 * n * std::log(1 - std::min(r * r, 0.95));
+  }
+};
+
+/// Pixels of sums with running totals, so that a box costs four look-ups.
+class Raster {
+ public:
+  Raster(int width, int height) : width_(width), height_(height) {
+    for (auto& plane : planes_) plane.resize(static_cast<std::size_t>(width) * height);
+  }
+  void clear() {
+    for (auto& plane : planes_) std::fill(plane.begin(), plane.end(), 0.0f);
+  }
+  void add(int x, int y, float intensity) {
+    const std::size_t at = static_cast<std::size_t>(y) * width_ + x;
+    planes_[0][at] += 1;
+    planes_[1][at] += intensity;
+    planes_[2][at] += intensity * intensity;
+  }
+  int width() const { return width_; }
+  int height() const { return height_; }
+  const std::vector<float>& plane(int k) const { return planes_[k]; }
+
+ private:
+  int width_, height_;
+  std::array<std::vector<float>, 3> planes_;  // count, sum, sum of squares
+};
+
+/// Box sums of `pixels` over windows of `cells` cells of `cell_px` pixels along one axis, the cells
+/// weighed +1, -1, +1, ... (or all +1). `stride` steps along the axis, `across` over it.
+void window_sums(const std::vector<double>& in, int length, std::size_t stride, int lines,
+                 std::size_t across, int cells, int cell_px, bool alternating,
+                 std::vector<double>& out, std::vector<double>& running) {
+  running.assign(static_cast<std::size_t>(length) + 1, 0);
+  const int last = length - cells * cell_px;
+  for (int line = 0; line < lines; ++line) {
+    const std::size_t base = line * across;
+    for (int k = 0; k < length; ++k) running[k + 1] = running[k] + in[base + k * stride];
+    for (int k = 0; k <= last; ++k) {
+      double sum = 0;
+      if (alternating) {
+        for (int c = 0; c < cells; ++c) {
+          const double box = running[k + (c + 1) * cell_px] - running[k + c * cell_px];
+          sum += c % 2 == 0 ? box : -box;
+        }
+      } else {
+        sum = running[k + cells * cell_px] - running[k];
+      }
+      out[base + k * stride] = sum;
+    }
+  }
+}
+
+struct Scratch {
+  std::vector<double> first, second, running;
+};
+
+std::vector<double> window_map(const Raster& raster, int plane, const BoardSpec& board, int cell_px,
+                               bool alternating, Scratch& scratch) {
+  const int w = raster.width(), h = raster.height();
+  const auto& pixels = raster.plane(plane);
+  scratch.second.assign(pixels.begin(), pixels.end());
+  scratch.first.assign(pixels.size(), 0);
+  std::vector<double> out(pixels.size(), 0);
+  window_sums(scratch.second, w, 1, h, w, board.columns, cell_px, alternating, scratch.first,
+              scratch.running);
+  window_sums(scratch.first, h, w, w, 1, board.rows, cell_px, alternating, out, scratch.running);
+  return out;
+}
+
+/// How the search is laid out.
+struct Grid {
+  double pixel_m = 0, half_m = 0, angle_step_rad = 0;
+  int cell_px = 0, size_px = 0, angles = 0;
+};
+
+Grid make_grid(const BoardSpec& board, const BoardSearchOptions& options) {
+  Grid grid;
+  grid.cell_px = board.columns <= 4 ? 24 / board.columns : 5;
+  grid.pixel_m = board.cell_m / grid.cell_px;
+  const double half_diagonal_m = 0.5 * std::hypot(board.side_m(), board.height_m());
+  const double reach_m = options.radius_m + 0.5 * board.side_m() + grid.pixel_m;
+  grid.size_px = 2 * static_cast<int>(std::ceil(reach_m / grid.pixel_m)) + 1;
+  grid.half_m = 0.5 * grid.size_px * grid.pixel_m;
+  const double range_rad = (board.square() ? 90 : 180) * degree;
+  const double step_rad = std::min(3 * degree, 0.4 * board.cell_m / half_diagonal_m);
+  grid.angles = static_cast<int>(std::ceil(range_rad / step_rad));
+  grid.angle_step_rad = range_rad / grid.angles;
+  return grid;
+}
+
+/// The pattern fits with either sign where a turn of the board swaps dark and light.
+bool sign_is_free(const BoardSpec& board) {
+  return (board.square() && board.columns % 2 == 0) || !board.half_turn_symmetric();
+}
+
+/// A negative correlation is a positive one of the board turned by a quarter (square) or a half.
+BoardCandidate with_positive_sign(const BoardSpec& board, BoardCandidate candidate) {
+  if (candidate.correlation < 0 && sign_is_free(board)) {
+    candidate.pose.angle_rad += (board.square() ? 90 : 180) * degree;
+    candidate.correlation = -candidate.correlation;
+  }
+  return candidate;
+}
+
+void keep_best(const BoardSpec& board, std::size_t most, const BoardCandidate& candidate,
+               std::vector<BoardCandidate>& best) {
+  const double apart_m = 0.5 * board.height_m();
+  for (BoardCandidate& other : best) {
+    if ((other.pose.centre_m - candidate.pose.centre_m).norm() >= apart_m) continue;
+    if (candidate.gain > other.gain) other = candidate;
+    return;
+  }
+  best.push_back(candidate);
+  if (best.size() > 8 * most) {
+    std::stable_sort(best.begin(), best.end(),
+                     [](const auto& a, const auto& b) { return a.gain > b.gain; });
+    best.resize(4 * most);
+  }
+}
+
+/// The best centres at one angle.
+std::vector<BoardCandidate> search_angle(const BoardSpec& board, const Grid& grid,
+                                         std::span<const Eigen::Vector2d> places_m,
+                                         const std::vector<float>& intensity, double angle_rad,
+                                         const BoardSearchOptions& options) {
+  Raster raster(grid.size_px, grid.size_px);
+  raster.clear();
+  const double c = std::cos(angle_rad), s = std::sin(angle_rad);
+  for (std::size_t i = 0; i < places_m.size(); ++i) {
+    const Eigen::Vector2d from = places_m[i] - options.about_m;
+    const int x =
+        static_cast<int>(std::floor((c * from.x() + s * from.y() + grid.half_m) / grid.pixel_m));
+    const int y =
+        static_cast<int>(std::floor((-s * from.x() + c * from.y() + grid.half_m) / grid.pixel_m));
+    if (x >= 0 && y >= 0 && x < grid.size_px && y < grid.size_px) raster.add(x, y, intensity[i]);
+  }
+  Scratch scratch;
+  std::array<std::vector<double>, 5> maps;
+  for (int k = 0; k < 3; ++k) maps[k] = window_map(raster, k, board, grid.cell_px, false, scratch);
+  for (int k = 0; k < 2; ++k)
+    maps[3 + k] = window_map(raster, k, board, grid.cell_px, true, scratch);
+  const bool free_sign = sign_is_free(board);
+  std::vector<BoardCandidate> best;
+  for (int y = 0; y + board.rows * grid.cell_px <= grid.size_px; ++y) {
+    for (int x = 0; x + board.columns * grid.cell_px <= grid.size_px; ++x) {
+      const Eigen::Vector2d turned = Eigen::Vector2d(x, y) * grid.pixel_m -
+                                     Eigen::Vector2d::Constant(grid.half_m) +
+                                     Eigen::Vector2d(board.side_m(), board.height_m()) / 2;
+      if (turned.norm() > options.radius_m) continue;
+      const std::size_t at = static_cast<std::size_t>(y) * grid.size_px + x;
+      // The first cell is dark, -1; the waves begin with +1.
+      const OutlineSums sums{maps[0][at], maps[1][at], maps[2][at], -maps[3][at], -maps[4][at]};
+      BoardCandidate candidate;
+      candidate.correlation = sums.correlation();
+      if (candidate.correlation == 0 || (candidate.correlation < 0 && !free_sign)) continue;
+      candidate.gain = sums.gain();
+      if (!best.empty() && best.size() >= 2 * options.most_candidates &&
+          candidate.gain <= best.back().gain)
+        continue;
+      candidate.points = static_cast<std::size_t>(sums.n);
+      candidate.pose = {options.about_m + Eigen::Vector2d(c * turned.x() - s * turned.y(),
+                                                          s * turned.x() + c * turned.y()),
+                        angle_rad};
+      keep_best(board, options.most_candidates, with_positive_sign(board, candidate), best);
+    }
+  }
+  return best;
+}
+
+std::vector<float> clipped(std::span<const float> intensity) {
+  std::vector<float> sorted(intensity.begin(), intensity.end()), values = sorted;
+  const std::size_t n = sorted.size(), low = n / 50, high = n - 1 - n / 50;
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(low), sorted.end());
+  const float least = sorted[low];
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(high),
+                   sorted.end());
+  const float most = sorted[high];
+  // About the middle, in [-1, 1], so that sums of squares lose nothing to a common level.
+  const float middle = (least + most) / 2, half = std::max((most - least) / 2, 1e-30f);
+  for (float& value : values) value = (std::clamp(value, least, most) - middle) / half;
+  return values;
+}
+
+}  // namespace
+
+Eigen::Vector2d on_board(const BoardPose2& pose, const Eigen::Vector2d& place_m) {
+  const double c = std::cos(pose.angle_rad), s = std::sin(pose.angle_rad);
+  const Eigen::Vector2d from = place_m - pose.centre_m;
+  return {c * from.x() + s * from.y(), -s * from.x() + c * from.y()};
+}
+
+std::vector<BoardCandidate> search_board(const BoardSpec& board,
+                                         std::span<const Eigen::Vector2d> places_m,
+                                         std::span<const float> intensity,
+                                         const BoardSearchOptions& options) {
+  if (places_m.size() < 8) return {};
+  const Grid grid = make_grid(board, options);
+  const std::vector<float> values = clipped(intensity);
+  std::vector<std::vector<BoardCandidate>> parts(grid.angles);
+  parallel_chunks(parts.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      parts[k] = search_angle(board, grid, places_m, values,
+                              static_cast<double>(k) * grid.angle_step_rad, options);
+  });
+  std::vector<BoardCandidate> best;
+  for (const auto& part : parts)
+    for (const BoardCandidate& candidate : part)
+      keep_best(board, options.most_candidates, candidate, best);
+  std::stable_sort(best.begin(), best.end(),
+                   [](const auto& a, const auto& b) { return a.gain > b.gain; });
+  if (best.size() > options.most_candidates) best.resize(options.most_candidates);
+  return best;
+}
+
+BoardCandidate correlate(const BoardSpec& board, std::span<const Eigen::Vector2d> places_m,
+                         std::span<const float> intensity, const BoardPose2& pose) {
+  OutlineSums sums;
+  const Eigen::Vector2d half(board.side_m() / 2, board.height_m() / 2);
+  double level = 0;
+  for (const float value : intensity) level += value;
+  level /= static_cast<double>(std::max<std::size_t>(intensity.size(), 1));
+  for (std::size_t k = 0; k < places_m.size(); ++k) {
+    const Eigen::Vector2d at = on_board(pose, places_m[k]);
+    if (std::abs(at.x()) > half.x() || std::abs(at.y()) > half.y()) continue;
+    const double s = pattern_sign(board, at), i = intensity[k] - level;
+    sums.n += 1;
+    sums.i += i;
+    sums.ii += i * i;
+    sums.s += s;
+    sums.si += s * i;
+  }
+  return {pose, sums.correlation(), sums.n > 2 ? sums.gain() : 0, static_cast<std::size_t>(sums.n)};
+}
+
+}  // namespace alea
