@@ -6,6 +6,7 @@
 
 #include "alea/core/parallel.hpp"
 #include "alea/io/atomic_file.hpp"
+#include "experiments/checkerboard/reproduce_checkerboard.hpp"
 #include "experiments/command/command.hpp"
 #include "experiments/command/reproduction_json.hpp"
 #include "experiments/die/reproduce_die.hpp"
@@ -20,24 +21,43 @@ struct ReproduceOptions {
   bool smoke = false;
 };
 
+using Tables = std::vector<experiments::ResultTable>;
+
+Tables reproduce_one(const ReproduceOptions& options, const std::string& paper,
+                     const ProgressCallback& progress) {
+  const std::string folder = (std::filesystem::path(options.out) / paper).string();
+  if (paper == "checkerboard")
+    return experiments::checkerboard::reproduce_checkerboard(
+        {folder, options.smoke, options.common.seed, progress});
+  experiments::die::Reproduction result =
+      experiments::die::reproduce_die({folder, options.smoke, options.common.seed, progress});
+  if (!result.no_pictures.empty()) fmt::print(stderr, "{}\n", result.no_pictures);
+  return std::move(result.tables);
+}
+
 int reproduce(const ReproduceOptions& options) {
   const ThreadLimit limit(options.common.threads);
   const ProgressCallback progress = make_progress(options.common);
-  namespace fs = std::filesystem;
-  const std::string folder = (fs::path(options.out) / "die").string();
-  const experiments::die::Reproduction result =
-      experiments::die::reproduce_die({folder, options.smoke, options.common.seed, progress});
-  const nlohmann::json document =
-      reproduction_json(result.tables, options.common.seed, options.smoke);
-  write_file_atomically(fs::path(folder) / "tables.json", document.dump(2) + "\n");
-  write_json(options.common, document);
+  Tables tables;
+  for (const std::string paper : {"die", "checkerboard"}) {
+    if (options.paper != "all" && options.paper != paper) continue;
+    Tables own = reproduce_one(options, paper, progress);
+    const std::filesystem::path file = std::filesystem::path(options.out) / paper / "tables.json";
+    write_file_atomically(
+        file, reproduction_json(own, options.common.seed, options.smoke).dump(2) + "
+");
+    for (experiments::ResultTable& table : own) {
+      if (options.paper == "all") table.id = fmt::format("{}_{}", paper, table.id);
+      tables.push_back(std::move(table));
+    }
+  }
+  write_json(options.common, reproduction_json(tables, options.common.seed, options.smoke));
   if (options.common.json == "-") return exit_done;
-  for (const experiments::ResultTable& table : result.tables)
+  for (const experiments::ResultTable& table : tables)
     fmt::print("{}\n", experiments::as_text(table));
-  for (const experiments::ResultTable& table : result.tables)
+  for (const experiments::ResultTable& table : tables)
     fmt::print("{}", experiments::summary_line(table));
-  if (!result.no_pictures.empty()) fmt::print("{}\n", result.no_pictures);
-  fmt::print("\ntables and pictures: {}\n", fs::absolute(folder).string());
+  fmt::print("\ntables and pictures: {}\n", std::filesystem::absolute(options.out).string());
   return exit_done;
 }
 
@@ -47,9 +67,9 @@ void add_reproduce(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ReproduceOptions>();
   CLI::App* const command =
       app.add_subcommand("reproduce", "Repeat a paper: its tables, statements and figures");
-  command->add_option("paper", options->paper, "die, or all")
+  command->add_option("paper", options->paper, "die, checkerboard, or all")
       ->required()
-      ->check(CLI::IsMember({"die", "all"}));
+      ->check(CLI::IsMember({"die", "checkerboard", "all"}));
   command->add_option("--out", options->out, "Folder of the results; each paper has its own in it")
       ->required();
   command->add_flag("--smoke", options->smoke, "Few trials: minutes instead of an hour");

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "alea/core/error.hpp"
+#include "experiments/checkerboard/acceptance.hpp"
 #include "experiments/die/acceptance.hpp"
 #include "experiments/engine/sweep_acceptance.hpp"
 
@@ -52,7 +53,7 @@ std::string to_line(const Cell& cell) {
 
 std::vector<Topic> all_topics() {
   std::vector<Topic> topics;
-  for (const auto& of_issue : {die_topics(), sweep_topics()})
+  for (const auto& of_issue : {die_topics(), checkerboard_topics(), sweep_topics()})
     topics.insert(topics.end(), of_issue.begin(), of_issue.end());
   return topics;
 }

@@ -116,7 +116,8 @@ std::optional<Refusal> check_pattern(const BoardSpec& board,
   const bool small = board.cells() < 12;
   const double least_share = small ? 1.0 : 0.75;
   const double n = static_cast<double>(std::max<std::size_t>(fit.points, 1));
-  const double least_r = small ? 0.5 : std::max(0.15, 6 / std::sqrt(n));
+  // Among all poses that the search tries, noise alone reaches about 4.3 / sqrt(n).
+  const double least_r = std::max(small ? 0.5 : 0.15, 6 / std::sqrt(n));
   const bool seen_enough = 2 * pairs.seen >= (small ? 2 : 1) * pairs.all;
   if (r >= least_r && fit.half_contrast > 0 && seen_enough &&
       pairs.right >= least_share * pairs.seen)

@@ -1,5 +1,3 @@
-#include "alea/checkerboard/board_fit.hpp"
-
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
@@ -7,62 +5,13 @@
 #include <cmath>
 #include <vector>
 
+#include "alea/checkerboard/board_expectation.hpp"
+
 namespace alea {
 namespace {
 
-using Row = Eigen::Matrix<double, BoardFit::parameters, 1>;
+using Row = BoardRow;
 using Matrix = BoardFit::Covariance;
-
-struct Model {
-  double value = 0;          ///< expected intensity
-  double jitter_factor = 0;  ///< squared gradient of it, 1/m^2
-  Row row = Row::Zero();     ///< derivatives
-};
-
-/// Expected intensity of a place and its derivatives; those by parameters that are fixed stay zero.
-class Expectation {
- public:
-  Expectation(const BoardSpec& board, const BoardFit& fit, const BoardFitOptions& options)
-      : board_{board.columns, board.rows, fit.cell_m},
-        fit_(fit),
-        options_(options),
-        cosine_(std::cos(fit.pose.angle_rad)),
-        sine_(std::sin(fit.pose.angle_rad)) {}
-
-  Eigen::Vector2d on_board(const Eigen::Vector2d& place) const {
-    const Eigen::Vector2d from = place - fit_.pose.centre_m;
-    return {cosine_ * from.x() + sine_ * from.y(), -sine_ * from.x() + cosine_ * from.y()};
-  }
-
-  Model at(const Eigen::Vector2d& on_board_m) const {
-    const BlurredPattern pattern = blurred_pattern(board_, on_board_m, fit_.blur_m);
-    const double half = fit_.half_contrast;
-    Model model;
-    model.value = fit_.mean + half * pattern.value + fit_.slope.dot(on_board_m);
-    model.row[5] = 1;
-    model.row[6] = pattern.value;
-    if (options_.free_slope) model.row.tail<2>() = on_board_m;
-    Eigen::Vector2d gradient = fit_.slope;
-    if (!pattern.flat) {
-      gradient += half * pattern.by_place;
-      model.jitter_factor = gradient.squaredNorm();
-      model.row.segment<2>(3) = half * pattern.by_blur;
-      if (options_.free_cell) model.row[7] = half * pattern.by_cell;
-    }
-    if (!pattern.flat || options_.free_slope) {
-      model.row[0] = -(cosine_ * gradient.x() - sine_ * gradient.y());
-      model.row[1] = -(sine_ * gradient.x() + cosine_ * gradient.y());
-      model.row[2] = gradient.x() * on_board_m.y() - gradient.y() * on_board_m.x();
-    }
-    return model;
-  }
-
- private:
-  BoardSpec board_;
-  const BoardFit& fit_;
-  const BoardFitOptions& options_;
-  double cosine_, sine_;
-};
 
 struct Sample {
   Eigen::Vector2d place;
@@ -114,7 +63,7 @@ class Fitter {
     fit_.cell_m = board_.cell_m;
     fit_.blur_m = Eigen::Vector2d::Constant(std::max(0.1 * board_.cell_m, least_blur()));
     std::array<double, 2> sum{}, count{};
-    const Expectation expectation(board_, fit_, options_);
+    const BoardExpectation expectation(board_, fit_, options_);
     for (std::size_t i = 0; i < places.size(); ++i) {
       const Eigen::Vector2d at = expectation.on_board(places[i]);
       if (!inside(at, 0)) continue;
@@ -138,7 +87,7 @@ class Fitter {
   void select(std::span<const Eigen::Vector2d> places, std::span<const float> intensity) {
     const double margin_m = std::clamp(2.5 * fit_.blur_m.maxCoeff(),
                                        options_.margin_cells * board_.cell_m, 0.3 * board_.cell_m);
-    const Expectation expectation(board_, fit_, options_);
+    const BoardExpectation expectation(board_, fit_, options_);
     samples_.clear();
     for (std::size_t i = 0; i < places.size(); ++i)
       if (inside(expectation.on_board(places[i]), margin_m))
@@ -148,12 +97,12 @@ class Fitter {
 
   /// Intensity noise from points away from edges, jitter from what is left near them.
   void update_noise() {
-    const Expectation expectation(board_, fit_, options_);
+    const BoardExpectation expectation(board_, fit_, options_);
     std::vector<double> flat, all;
     std::vector<std::pair<double, double>> near_edges;  // squared residual, jitter factor
     const double steep = 1e-3 * fit_.half_contrast / board_.cell_m;
     for (const Sample& sample : samples_) {
-      const Model model = expectation.at(expectation.on_board(sample.place));
+      const ExpectedIntensity model = expectation.at(expectation.on_board(sample.place));
       const double residual = sample.intensity - model.value;
       all.push_back(std::abs(residual));
       if (model.jitter_factor <= steep * steep)
@@ -180,7 +129,7 @@ class Fitter {
     }
   }
 
-  double variance(const Model& model) const {
+  double variance(const ExpectedIntensity& model) const {
     return fit_.intensity_sd * fit_.intensity_sd +
            fit_.place_sd_m * fit_.place_sd_m * model.jitter_factor;
   }
@@ -199,10 +148,10 @@ class Fitter {
   }
 
   Sums sums(bool with_scatter) const {
-    const Expectation expectation(board_, fit_, options_);
+    const BoardExpectation expectation(board_, fit_, options_);
     Sums total;
     for (const Sample& sample : samples_) {
-      const Model model = expectation.at(expectation.on_board(sample.place));
+      const ExpectedIntensity model = expectation.at(expectation.on_board(sample.place));
       const double v = variance(model), residual = sample.intensity - model.value;
       const double size = std::abs(residual) / std::sqrt(v);
       const double weight = (size <= huber ? 1 : huber / size) / v;
@@ -223,7 +172,7 @@ class Fitter {
     return total;
   }
 
-  static void add_flat(const Model& model, double weight, double residual, double v,
+  static void add_flat(const ExpectedIntensity& model, double weight, double residual, double v,
                        bool with_scatter, Sums& total) {
     const Eigen::Vector2d row = model.row.segment<2>(5);
     total.normal_matrix.block<2, 2>(5, 5) += weight * row * row.transpose();

@@ -117,8 +117,8 @@ double score_of(const Cloud& board_points, const Cloud& binary, double threshold
                       1.5 * std::max(board.side_m() / template_points, spacing));
 }
 
-BoardMeasurement described(const RigidTransform& pose, const Eigen::Vector3d& scanner,
-                           const BoardSpec& board) {
+BoardMeasurement measurement_at(const RigidTransform& pose, const Eigen::Vector3d& scanner,
+                                const BoardSpec& board) {
   BoardMeasurement result;
   result.centre_m = pose.translation;
   result.normal = pose.rotation.col(2);
@@ -130,6 +130,39 @@ BoardMeasurement described(const RigidTransform& pose, const Eigen::Vector3d& sc
   result.cell_m = board.cell_m;
   if (board.half_turn_symmetric()) result.alternatives.push_back(-result.axes);
   return result;
+}
+
+/// Scan from board after the two alignments; empty where one found no pairs. `note` hears of the
+/// pose before and after each.
+template <typename Note>
+std::optional<RigidTransform> aligned_template(const Cloud& target, const Cloud& board_points,
+                                               const RigidTransform& start, double side_m,
+                                               const ColouredBoardOptions& coloured,
+                                               const Note& note) {
+  Scaling scaling, from_board;
+  if (coloured.centred) scaling = {mean_of(target), 1 / side_m};
+  from_board.scale = scaling.scale;
+  Cloud scaled_target = scaling(target);
+  NormalOptions normals;
+  normals.neighbours = static_cast<int>(coloured.normal_neighbours);
+  for (const Eigen::Vector3d& n : estimate_normals(scaled_target, normals))
+    scaled_target.normals.push_back(n.cast<float>());
+  const Cloud scaled_board = from_board(board_points);
+  RigidTransform pose = scaling.into(start);
+  note("start", start);
+  bool found_pairs = true;
+  const auto align = [&](const char* name, IcpObjective objective) {
+    const IcpResult result = icp(scaled_target, scaled_board, pose,
+                                 icp_options(coloured, scaling.scale * side_m, objective));
+    pose = result.target_from_source;
+    found_pairs = result.stop != IcpStop::too_few_pairs && result.stop != IcpStop::undetermined;
+    note(name, scaling.back(pose));
+  };
+  if (coloured.point_to_plane) align("point_to_plane", IcpObjective::point_to_plane);
+  if (coloured.coloured) align("coloured", IcpObjective::coloured);
+  const RigidTransform scan_from_board = scaling.back(pose);
+  if (!found_pairs || !scan_from_board.translation.allFinite()) return std::nullopt;
+  return scan_from_board;
 }
 
 }  // namespace
@@ -157,47 +190,19 @@ Result<BoardMeasurement> measure_by_coloured_icp(const Cloud& cloud, const Eigen
   if (coloured.binarise) binarise(target);
   if (stages) stages->binarised = target;
 
-  Scaling scaling;
-  if (coloured.centred) scaling = {mean_of(target), 1 / board.side_m()};
-  const double side = scaling.scale * board.side_m();
-  Cloud scaled_target = scaling(target);
-  NormalOptions normals;
-  normals.neighbours = static_cast<int>(coloured.normal_neighbours);
-  for (const Eigen::Vector3d& n : estimate_normals(scaled_target, normals))
-    scaled_target.normals.push_back(n.cast<float>());
   const Cloud board_points = board_template(board, coloured.template_points);
-  Scaling from_board;
-  from_board.scale = scaling.scale;
-  const Cloud scaled_board = from_board(board_points);
-
-  RigidTransform pose = scaling.into(coloured.start.value_or(facing_start(near_m, scanner)));
-  const auto note = [&](const char* name) {
-    if (stages) stages->poses.emplace_back(name, scaling.back(pose));
-  };
-  note("start");
-  const auto align = [&](IcpObjective objective) {
-    const IcpResult result =
-        icp(scaled_target, scaled_board, pose, icp_options(coloured, side, objective));
-    pose = result.target_from_source;
-    return result.stop != IcpStop::too_few_pairs && result.stop != IcpStop::undetermined;
-  };
-  bool aligned = true;
-  if (coloured.point_to_plane) {
-    aligned = align(IcpObjective::point_to_plane);
-    note("point_to_plane");
-  }
-  if (coloured.coloured) {
-    aligned = align(IcpObjective::coloured);
-    note("coloured");
-  }
-  const RigidTransform scan_from_board = scaling.back(pose);
-  if (!aligned || !scan_from_board.translation.allFinite())
+  const auto scan_from_board =
+      aligned_template(target, board_points, coloured.start.value_or(facing_start(near_m, scanner)),
+                       board.side_m(), coloured, [&](const char* name, const RigidTransform& pose) {
+                         if (stages) stages->poses.emplace_back(name, pose);
+                       });
+  if (!scan_from_board)
     return Refusal{RefusalCode::no_convergence, "the template found no pairs; check --near"};
-  BoardMeasurement result = described(scan_from_board, scanner, board);
+  BoardMeasurement result = measurement_at(*scan_from_board, scanner, board);
   result.points = target.size();
-  result.rmse_m = rmse_about(target, scan_from_board, board);
+  result.rmse_m = rmse_about(target, *scan_from_board, board);
   result.colour_score =
-      score_of(board_points, target, threshold, scan_from_board, board, coloured.template_points);
+      score_of(board_points, target, threshold, *scan_from_board, board, coloured.template_points);
   if (coloured.coloured && !(result.colour_score > 0.5))
     return Refusal{RefusalCode::no_pattern,
                    fmt::format("colour score {:.2f} is not above 0.5", result.colour_score)};

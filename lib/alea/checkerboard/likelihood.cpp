@@ -9,6 +9,7 @@
 
 #include "alea/checkerboard/board_checks.hpp"
 #include "alea/checkerboard/board_crop.hpp"
+#include "alea/checkerboard/fitted_board.hpp"
 #include "alea/core/error.hpp"
 
 namespace alea {
@@ -85,15 +86,6 @@ std::vector<Sighting> sightings(const BoardPoints& points, const BoardOptions& o
   return found;
 }
 
-/// The board on its own plane.
-struct Fitted {
-  BoardPoints points;
-  BoardPlane plane;
-  std::vector<Eigen::Vector2d> places;
-  BoardFit fit;
-  double spacing_m = 0;
-};
-
 double spacing_on(const BoardSpec& board, const std::vector<Eigen::Vector2d>& places,
                   const BoardPose2& pose) {
   std::size_t inside = 0;
@@ -136,9 +128,9 @@ BoardPose2 best_of_shifts(const BoardSpec& board, const std::vector<Eigen::Vecto
 
 /// The plane through the board's points alone, and the edges on it; twice, since each helps the
 /// other.
-Fitted fit_on_plane(const Sighting& sighting, const BoardCandidate& candidate,
-                    const BoardSpec& board) {
-  Fitted fitted;
+FittedBoard fit_on_plane(const Sighting& sighting, const BoardCandidate& candidate,
+                         const BoardSpec& board) {
+  FittedBoard fitted;
   fitted.points = sighting.points;
   fitted.plane = sighting.plane;
   fitted.places = sighting.places;
@@ -182,7 +174,7 @@ Fitted fit_on_plane(const Sighting& sighting, const BoardCandidate& candidate,
   return fitted;
 }
 
-std::optional<Refusal> check(const Fitted& fitted, const BoardSpec& board) {
+std::optional<Refusal> check(const FittedBoard& fitted, const BoardSpec& board) {
   constexpr std::size_t least_points = 24;
   if (fitted.fit.points < least_points)
     return Refusal{RefusalCode::too_few_points,
@@ -198,91 +190,6 @@ std::optional<Refusal> check(const Fitted& fitted, const BoardSpec& board) {
     return Refusal{RefusalCode::unobservable,
                    fmt::format("the centre is uncertain by {:.4f} m; scan more densely", sd_m)};
   return std::nullopt;
-}
-
-/// In-plane covariance, and that of the plane's offset along the ray through the centre.
-Eigen::Matrix3d centre_covariance(const Fitted& fitted, const BoardFit::Covariance& in_plane,
-                                  const Eigen::Matrix3d& of_plane) {
-  const BoardPlane& plane = fitted.plane;
-  const Eigen::Vector2d at = fitted.fit.pose.centre_m;
-  const Eigen::Vector3d lever(at.x(), at.y(), -1);
-  const double offset_variance = lever.dot(of_plane * lever);
-  const Eigen::Vector3d centre = plane.anchor + plane.axes * at;
-  Eigen::Vector3d along = plane.plane.normal;
-  if (!fitted.points.rays.empty()) {
-    const Eigen::Vector3d scanner_to_centre = fitted.points.rays[0];
-    // The rays of a target are nearly parallel: the one nearest to the centre stands for it.
-    Eigen::Vector3d ray = scanner_to_centre;
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < fitted.points.size(); ++i) {
-      const double off = (fitted.points.positions[i] - centre).squaredNorm();
-      if (off < nearest) {
-        nearest = off;
-        ray = fitted.points.rays[i];
-      }
-    }
-    along = ray / std::abs(ray.dot(plane.plane.normal));
-  }
-  return plane.axes * in_plane.topLeftCorner<2, 2>() * plane.axes.transpose() +
-         offset_variance * along * along.transpose();
-}
-
-/// The axes of the board, rows upward, and what else looks the same.
-void add_axes(const Fitted& fitted, const BoardSpec& board, BoardMeasurement& result) {
-  const double angle = fitted.fit.pose.angle_rad;
-  Eigen::Matrix2d turn;
-  turn << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
-  const BoardAxes first = fitted.plane.axes * turn;
-  std::vector<BoardAxes> same{first};
-  if (board.half_turn_symmetric()) same.push_back(-first);
-  if (board.quarter_turn_symmetric()) {
-    BoardAxes quarter;
-    quarter << first.col(1), -first.col(0);
-    same.push_back(quarter);
-    same.push_back(-quarter);
-  }
-  const auto upward = [](const BoardAxes& axes) {
-    return std::tuple(axes(2, 1), axes(1, 1), axes(0, 1));
-  };
-  std::stable_sort(same.begin(), same.end(),
-                   [&](const BoardAxes& a, const BoardAxes& b) { return upward(a) > upward(b); });
-  result.axes = same[0];
-  result.alternatives.assign(same.begin() + 1, same.end());
-  if (!result.alternatives.empty())
-    result.warnings.push_back(
-        fmt::format("symmetric: the pattern looks the same after a {} turn; the centre does not "
-                    "depend on it",
-                    board.quarter_turn_symmetric() ? "quarter" : "half"));
-}
-
-BoardMeasurement measurement(const Fitted& fitted, const BoardSpec& board) {
-  const BoardPlane& plane = fitted.plane;
-  const BoardFit& fit = fitted.fit;
-  BoardMeasurement result;
-  result.centre_m = fitted.points.origin + plane.anchor + plane.axes * fit.pose.centre_m;
-  result.covariance = centre_covariance(fitted, fit.covariance, plane.covariance);
-  result.bound = centre_covariance(fitted, fit.bound, plane.bound);
-  result.normal = plane.plane.normal;
-  result.cell_m = fit.cell_m;
-  result.cell_estimated = board.columns > 2;
-  result.rmse_m = plane.rmse_m;
-  result.correlation =
-      correlate(board, fitted.places, fitted.points.intensity, fit.pose).correlation;
-  result.dark = fit.dark();
-  result.light = fit.light();
-  result.blur_m = fit.blur_m;
-  result.points = fit.points;
-  add_axes(fitted, board, result);
-  Cloud flat;
-  flat.intensity = fitted.points.intensity;
-  for (const Eigen::Vector2d& place : fitted.places) {
-    const Eigen::Vector2d at = on_board(fit.pose, place);
-    flat.positions.emplace_back(at.x(), at.y(), 0);
-  }
-  const int along = std::max(20, 4 * board.columns);
-  result.colour_score = colour_score(board_template(board, along), flat, fit.mean,
-                                     1.5 * std::max(board.side_m() / along, fitted.spacing_m));
-  return result;
 }
 
 Refusal nothing_there(const BoardPoints& points, bool any_plane, const BoardSpec& board) {
@@ -311,12 +218,12 @@ Result<BoardMeasurement> measure_points(const BoardPoints& points, const Eigen::
   for (const Sighting& sighting : planes) {
     for (const BoardCandidate& candidate : sighting.candidates) {
       if (candidate.gain < 0.3 * planes[0].candidates[0].gain) break;
-      const Fitted fitted = fit_on_plane(sighting, candidate, options.board);
+      const FittedBoard fitted = fit_on_plane(sighting, candidate, options.board);
       if (auto refusal = check(fitted, options.board)) {
         if (!first_refusal) first_refusal = refusal;
         continue;
       }
-      const BoardMeasurement one = measurement(fitted, options.board);
+      const BoardMeasurement one = described(fitted, options.board);
       if (!found) {
         found = one;
         continue;

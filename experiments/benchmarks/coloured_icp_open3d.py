@@ -1,0 +1,89 @@
+#!/usr/bin/python3
+"""coloured_icp_open3d.py PAIRS: Open3D's coloured ICP on the pairs that coloured_icp_pairs wrote.
+
+Prints for each cell the success (RMSE below 15 % of the side against the truth) of both programs, their
+difference in points, the ratio of their mean centre errors where both succeed, and the times. Needs Debian's
+python3-open3d (scripts/setup peers). Both align from the identity with pairs up to one side, lambda 0.968, 50
+iterations; Open3D estimates its normals from the 30 nearest points, as Alea does.
+"""
+
+import sys
+import time
+
+import numpy as np
+import open3d as o3d
+
+
+def doubles(file, count):
+    values = np.fromfile(file, dtype=np.float64, count=count)
+    if len(values) < count:
+        raise EOFError
+    return values
+
+
+def cloud_of(file):
+    rows = doubles(file, 4 * int(doubles(file, 1)[0])).reshape(-1, 4)
+    cloud = o3d.geometry.PointCloud(o3d.utility.Vector3dVector(rows[:, :3]))
+    cloud.colors = o3d.utility.Vector3dVector(np.repeat(rows[:, 3:], 3, axis=1))
+    return cloud
+
+
+def aligned(board, target):
+    start = time.perf_counter()
+    target.estimate_normals(o3d.geometry.KDTreeSearchParamKNN(30))
+    prepared = time.perf_counter()
+    reg = o3d.pipelines.registration
+    result = reg.registration_colored_icp(
+        board, target, 1.0, np.eye(4), reg.TransformationEstimationForColoredICP(lambda_geometric=0.968),
+        reg.ICPConvergenceCriteria(relative_fitness=1e-6, relative_rmse=1e-6, max_iteration=50))
+    return result.transformation, time.perf_counter() - prepared, prepared - start
+
+
+def rmse(points, a, b):
+    off = points @ (a - b)[:3, :3].T + (a - b)[:3, 3]
+    return float(np.sqrt((off ** 2).sum(axis=1).mean()))
+
+
+def main():
+    cells, large = {}, []
+    with open(sys.argv[1], "rb") as file:
+        while True:
+            try:
+                shift, rotation, target_kind, seconds = doubles(file, 4)
+            except EOFError:
+                break
+            board, target = cloud_of(file), cloud_of(file)
+            truth, ours = (doubles(file, 16).reshape(4, 4) for _ in range(2))
+            theirs, their_seconds, _ = aligned(board, target)
+            points = np.asarray(board.points)
+            row = (rmse(points, ours, truth), rmse(points, theirs, truth),
+                   float(np.linalg.norm((ours - truth)[:3, 3])), float(np.linalg.norm((theirs - truth)[:3, 3])),
+                   seconds, their_seconds)
+            if len(points) > 1000:
+                large.append(row)
+            else:
+                cells.setdefault((int(target_kind), int(rotation), round(100 * shift)), []).append(row)
+    differences, ours_all, theirs_all = [], [], []
+    print("target rotation_deg shift_percent n alea_percent open3d_percent difference")
+    for key, rows in cells.items():
+        rows = np.array(rows)
+        good = rows[:, :2] < 0.15
+        share = 100 * good.mean(axis=0)
+        differences.append(share[0] - share[1])
+        both = good.all(axis=1)
+        ours_all.extend(rows[both, 2])
+        theirs_all.extend(rows[both, 3])
+        print(("identical", "independent")[key[0]], key[1], key[2], len(rows), f"{share[0]:.1f} {share[1]:.1f}",
+              f"{differences[-1]:+.1f}")
+    print(f"mean difference over {len(differences)} cells {np.mean(differences):+.2f} points (limit 2), "
+          f"largest {np.abs(differences).max():.1f} (limit 12)")
+    print(f"centre error where both succeed: rms ratio Alea / Open3D "
+          f"{np.sqrt(np.mean(np.square(ours_all)) / max(np.mean(np.square(theirs_all)), 1e-30)):.3f} "
+          f"(n = {len(ours_all)}; limit 0.9 to 1.1)")
+    for row in large:
+        print(f"20,000 points: Alea {row[4]:.3f} s, Open3D {row[5]:.3f} s, ratio {row[5] / row[4]:.2f}; "
+              f"rmse {row[0]:.5f} and {row[1]:.5f} sides")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,94 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "alea/checkerboard/blurred_pattern.hpp"
+#include "alea/core/error.hpp"
+
+namespace alea {
+namespace {
+
+TEST(BlurredPattern, IsTheProductOfTwoErrorFunctionsOnTwoByTwoCells) {
+  const BoardSpec board;
+  for (const double x : {-0.05, -0.003, 0.0, 0.001, 0.02}) {
+    for (const double y : {-0.01, 0.002, 0.06}) {
+      const BlurredPattern pattern = blurred_pattern(board, {x, y}, {0.004, 0.003});
+      const double expected = -std::erf(x / (std::numbers::sqrt2 * 0.004)) *
+                              std::erf(y / (std::numbers::sqrt2 * 0.003));
+      EXPECT_NEAR(pattern.value, expected, 1e-5);
+    }
+  }
+}
+
+TEST(BlurredPattern, DerivativesAreThoseOfItsValue) {
+  const BoardSpec board{5, 4, 0.05};
+  const Eigen::Vector2d blur(0.006, 0.009);
+  const double h = 1e-7;
+  for (const Eigen::Vector2d& at : {Eigen::Vector2d(0.021, -0.003), Eigen::Vector2d(-0.077, 0.052),
+                                    Eigen::Vector2d(0.1, 0.0)}) {
+    const BlurredPattern here = blurred_pattern(board, at, blur);
+    for (int k = 0; k < 2; ++k) {
+      const Eigen::Vector2d step = h * Eigen::Vector2d::Unit(k);
+      EXPECT_NEAR((blurred_pattern(board, at + step, blur).value -
+                   blurred_pattern(board, at - step, blur).value) /
+                      (2 * h),
+                  here.by_place[k], 1e-4);
+      EXPECT_NEAR((blurred_pattern(board, at, blur + step).value -
+                   blurred_pattern(board, at, blur - step).value) /
+                      (2 * h),
+                  here.by_blur[k], 1e-3);
+    }
+    EXPECT_NEAR((blurred_pattern({5, 4, 0.05 + h}, at, blur).value -
+                 blurred_pattern({5, 4, 0.05 - h}, at, blur).value) /
+                    (2 * h),
+                here.by_cell, 1e-3);
+  }
+}
+
+TEST(BlurredPattern, SharpEdgesGiveThePatternItself) {
+  const BoardSpec board{4, 3, 0.1};
+  for (double x = -0.19; x < 0.2; x += 0.037)
+    for (double y = -0.14; y < 0.15; y += 0.031)
+      EXPECT_NEAR(blurred_pattern(board, {x, y}, {1e-6, 1e-6}).value, pattern_sign(board, {x, y}),
+                  1e-9);
+}
+
+TEST(Board, TemplateHasAsManyDarkAsLightPointsOnEvenCells) {
+  const Cloud cloud = board_template({2, 2, 0.5}, 20);
+  EXPECT_EQ(cloud.size(), 400u);
+  double sum = 0;
+  for (const float value : cloud.intensity) sum += value;
+  EXPECT_EQ(sum, 200);
+  EXPECT_LT(cloud.intensity[0], 0.5f);  // the first cell is dark
+}
+
+TEST(Board, OtsuSeparatesTwoLevels) {
+  std::vector<float> values;
+  for (int i = 0; i < 300; ++i) values.push_back(static_cast<float>(20 + i % 7));
+  for (int i = 0; i < 100; ++i) values.push_back(static_cast<float>(200 + i % 9));
+  const double threshold = otsu_threshold(values);
+  EXPECT_GT(threshold, 27);
+  EXPECT_LT(threshold, 200);
+  EXPECT_EQ(otsu_threshold({5, 5, 5}), 5);
+  EXPECT_THROW(otsu_threshold({}), Error);
+}
+
+TEST(Board, ColourScoreCountsPointsWithoutNeighbourAsMisses) {
+  const Cloud board = board_template({2, 2, 0.5}, 10);
+  EXPECT_EQ(colour_score(board, board, 0.5, 0.01), 1);
+  Cloud away = board, inverted = board;
+  for (Eigen::Vector3d& p : away.positions) p.x() += 3;
+  for (float& value : inverted.intensity) value = 1 - value;
+  EXPECT_EQ(colour_score(board, away, 0.5, 0.15), 0);
+  EXPECT_EQ(colour_score(board, inverted, 0.5, 0.01), 0);
+}
+
+TEST(Board, RefusesBoardsThatCannotBe) {
+  EXPECT_THROW(require_valid({1, 1, 0.1}), Error);
+  EXPECT_THROW(require_valid({2, 3, 0.1}), Error);
+  EXPECT_THROW(require_valid({2, 2, 0}), Error);
+}
+
+}  // namespace
+}  // namespace alea

@@ -1,0 +1,38 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "alea/checkerboard/measurement.hpp"
+#include "alea/io/cloud_file.hpp"
+
+namespace alea {
+namespace {
+
+// Five frames of a still board, 64 rings, 18 x 8 cells of 50 mm at 3.4 m.
+TEST(RealScan, FiveFramesAgreeOnCentreNormalAndCell) {
+  const char* folder = std::getenv("ALEA_DATASETS");
+  const std::filesystem::path frames =
+      std::filesystem::path(folder == nullptr ? "" : folder) / "checkerboard-pandar64";
+  if (folder == nullptr || !std::filesystem::exists(frames))
+    GTEST_SKIP() << "set ALEA_DATASETS to the folder that holds checkerboard-pandar64";
+  BoardOptions options;
+  options.board = {18, 8, 0.05};
+  std::vector<BoardMeasurement> measured;
+  for (const char* frame : {"449", "549", "649", "749", "849"}) {
+    const Cloud cloud = read_cloud((frames / ("frame-03-" + std::string(frame) + ".pcd")).string());
+    const auto one = measure_by_likelihood(cloud, {3.3, 0.65, -0.3}, options);
+    ASSERT_TRUE(one) << frame << ": " << one.refusal().message;
+    measured.push_back(*one);
+  }
+  for (const BoardMeasurement& one : measured) {
+    EXPECT_LT((one.centre_m - measured[0].centre_m).norm(), 3e-3);
+    EXPECT_GT(one.normal.dot(measured[0].normal), std::cos(0.01));
+    EXPECT_NEAR(one.cell_m, 0.05, 0.0005);
+    EXPECT_NEAR(one.cell_m, measured[0].cell_m, 1e-4);
+  }
+}
+
+}  // namespace
+}  // namespace alea
