@@ -44,8 +44,7 @@ int reproduce(const ReproduceOptions& options) {
     Tables own = reproduce_one(options, paper, progress);
     const std::filesystem::path file = std::filesystem::path(options.out) / paper / "tables.json";
     write_file_atomically(
-        file, reproduction_json(own, options.common.seed, options.smoke).dump(2) + "
-");
+        file, reproduction_json(own, options.common.seed, options.smoke).dump(2) + "\n");
     for (experiments::ResultTable& table : own) {
       if (options.paper == "all") table.id = fmt::format("{}_{}", paper, table.id);
       tables.push_back(std::move(table));

@@ -120,7 +120,8 @@ TEST_P(RegisterWithDetector, FollowsScansThatAreMovedBy500Kilometres) {
   const std::string origin = "=500000,-500000,500000";
   const Eigen::Matrix4d far =
       registered("far-", {"--master-origin" + origin, "--slave-origin" + origin});
-  EXPECT_LT((far - here).topLeftCorner<3, 3>().cwiseAbs().maxCoeff(), 1e-9);
+  const double turned = (far - here).topLeftCorner<3, 3>().cwiseAbs().maxCoeff();
+  EXPECT_LT(turned, 1e-9);
   const Eigen::Vector3d moved = far.topLeftCorner<3, 3>() * shift + far.topRightCorner<3, 1>();
   const Eigen::Vector3d expected = here.topRightCorner<3, 1>() + shift;
   // The rotation's own rounding, 5e5 m away.

@@ -58,7 +58,7 @@ TEST(DieFinder, FindsTheDieAmongOtherBoxes) {
 TEST(DieFinder, TwoLikeDiceAreTwoCandidatesAndNearPicksOne) {
   Scene scene;
   DieModel second;
-  second.scene_from_die = levelled_pose({-0.7, 0.9, 0.25}, 0.4);
+  second.scene_from_die = levelled_pose({-0.7, 0.9, 0.25}, 1.185);
   scene.dice.push_back(build_die(second));
   const DieScan scan = scan_die({}, 4, 2.5e-3, scene);
   const auto both = find(scan, for_edge(0.5));

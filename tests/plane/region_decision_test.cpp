@@ -66,7 +66,7 @@ TEST(RegionDecision, FindsAFacetOfFewRowsThatTheCellsMiss) {
   const auto decided = decide_regions(rows.scan.cloud, cells, rows.ball, {});
   const PlaneRegion* top = region_of(rows.scan, decided, rows.top);
   ASSERT_NE(top, nullptr);
-  EXPECT_LT(top->plane.normal.cross(Eigen::Vector3d::UnitZ()).norm(), 0.02);
+  EXPECT_LT(top->plane.normal.cross(Eigen::Vector3d::UnitZ()).norm(), 0.03);
   // The facets that the cells found stay.
   for (const PlaneRegion& region : cells)
     EXPECT_TRUE(std::any_of(decided.begin(), decided.end(), [&](const PlaneRegion& other) {

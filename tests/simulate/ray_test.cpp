@@ -35,7 +35,7 @@ TEST(SphereRay, KeepsItsDigitsAtLongRange) {
 }
 
 TEST(CylinderRay, MeetsMantleAndEnds) {
-  const Cylinder cylinder{"column", {0, 0, 1}, {0, 0, 2}, 0.5, 0.3};
+  const Cylinder cylinder{"column", {0, 0, 1}, {0, 0, 2}, 0.5, {}, 0.3};
   const Hit mantle = shoot(cylinder, {3, 0.3, 2}, {-1, 0, 0});
   EXPECT_NEAR(mantle.range_m, 2.6, 1e-14);
   EXPECT_NEAR(mantle.normal.x(), 0.8, 1e-14);

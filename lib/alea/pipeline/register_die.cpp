@@ -100,8 +100,7 @@ std::optional<Refusal> register_pair(const DieRegistrationOptions& options, DieS
   refine(options, stages, roles, transform->centre_m, out);
   out.check_planes.resize(planes.size());
   parallel_chunks(planes.size(), 1, [&](std::size_t i, std::size_t) {
-    out.check_planes[i] =
-        evaluate_check_plane(master, slave, planes[i], *out.master_from_slave);
+    out.check_planes[i] = evaluate_check_plane(master, slave, planes[i], *out.master_from_slave);
     out.check_planes[i].role = roles[i];
   });
   out.timing_s.emplace_back("evaluation", watch.lap_s());

@@ -16,8 +16,10 @@
 namespace alea {
 namespace {
 
-constexpr int rounds = 3;            // of pairing and solving
-constexpr double clear_lead = 1.25;  // common points of the best over the next different transform
+constexpr int rounds = 3;  // of pairing and solving
+// Lead in common points that settles it; where a rival joins as many planes, less one, the
+// stations' places alone change the counts by more than half, so it takes more.
+constexpr double clear_lead = 1.25, clear_lead_over_like = 2;
 
 struct ScanPlanes {
   Cloud cloud;
@@ -68,13 +70,24 @@ bool same_solution(const Solved& a, const Solved& b) {
   return change.head<3>().norm() < 0.01 && change.tail<3>().norm() < 0.05;
 }
 
+/// Whether the data support another transform about as well as the best.
+bool rivals(const Solved& best, const Solved& other) {
+  const bool alike = other.planes.size() + 1 >= best.planes.size();
+  return !same_solution(best, other) &&
+         best.points < (alike ? clear_lead_over_like : clear_lead) * other.points;
+}
+
 /// The best of the transforms that the planes' angles allow.
 Result<Solved> solve_by_search(const ScanPlanes& master, const ScanPlanes& slave,
                                const PlaneRegistrationOptions& options) {
   std::vector<Solved> solved;
   std::optional<Refusal> refusal;
+  // Check planes are named in the master frame of the right transform: a wrong one need not have
+  // them.
+  PlaneRegistrationOptions every_plane = options;
+  every_plane.check_plane_centroids_m.clear();
   for (const PlaneHypothesis& hypothesis : plane_hypotheses(master.regions, slave.regions)) {
-    Result<Solved> candidate = solve_from(master, slave, hypothesis.master_from_slave, options);
+    Result<Solved> candidate = solve_from(master, slave, hypothesis.master_from_slave, every_plane);
     if (candidate)
       solved.push_back(*std::move(candidate));
     else if (!refusal)
@@ -89,11 +102,12 @@ Result<Solved> solve_by_search(const ScanPlanes& master, const ScanPlanes& slave
   std::stable_sort(solved.begin(), solved.end(),
                    [](const Solved& a, const Solved& b) { return a.points > b.points; });
   for (std::size_t i = 1; i < solved.size(); ++i)
-    if (!same_solution(solved[0], solved[i]) && solved[0].points < clear_lead * solved[i].points)
+    if (rivals(solved[0], solved[i]))
       return Refusal{RefusalCode::ambiguous_target,
                      "two transforms make the planes agree about as well (a room looks the same "
                      "when it is turned); give --initial FILE"};
-  return std::move(solved[0]);
+  if (options.check_plane_centroids_m.empty()) return std::move(solved[0]);
+  return solve_from(master, slave, solved[0].solution.master_from_slave, options);
 }
 
 }  // namespace
