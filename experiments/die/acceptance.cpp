@@ -25,7 +25,7 @@ std::vector<Topic> die_topics() {
        run_twins},
       {"die", "extraction", "facets from points: rounded edges with and without trim, naive bands",
        run_extraction},
-      {"die", "refusals", "scenes without a valid die give no transform", run_refusals},
+      {"die", "refusals", "scenes without a valid die give no transform", run_die_refusals},
       {"die", "repeatability", "the same bits for any run, thread count and order of points",
        run_repeatability},
   };

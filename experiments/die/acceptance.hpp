@@ -37,7 +37,7 @@ void run_twins(const Options& options, const Report& report);
 /// Issue die, line 5: rotation of dice extracted from points against bound L of the whole facets.
 void run_extraction(const Options& options, const Report& report);
 /// Issue die, line 8: 1,000 scenes without a valid die give no transform.
-void run_refusals(const Options& options, const Report& report);
+void run_die_refusals(const Options& options, const Report& report);
 /// Issue die, line 9: the same bits for one and two threads, shuffled points and two runs.
 void run_repeatability(const Options& options, const Report& report);
 

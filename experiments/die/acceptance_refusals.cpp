@@ -45,7 +45,7 @@ Interval wilson(double k, double n) {
 
 }  // namespace
 
-void run_refusals(const Options& options, const Report& report) {
+void run_die_refusals(const Options& options, const Report& report) {
   const std::uint64_t all = options.trials_or(1000);
   double transforms = 0;
   for (std::size_t f = 0; f < fault_names.size(); ++f) {
