@@ -22,6 +22,8 @@ using experiments::die::FaultyScans;
 /// The refusal's code, or empty where a transform was given.
 std::string outcome(Fault fault, std::uint64_t seed, std::uint64_t number) {
   const FaultyScans scans = draw_faulty_scans(fault, seed, number);
+  // A station whose window saw nothing has no scan to register.
+  if (scans.master.size() == 0 || scans.slave.size() == 0) return "empty_scan";
   DieRegistrationOptions options;
   options.edge_m = scans.edge_m;
   const Registration result = register_die(scans.master, scans.slave, options);
