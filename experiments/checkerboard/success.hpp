@@ -1,7 +1,8 @@
 #pragma once
 
-#include <cmath>
 #include <cstdint>
+
+#include "experiments/engine/wilson.hpp"
 
 namespace alea::experiments::checkerboard {
 
@@ -10,16 +11,12 @@ struct Share {
   std::uint64_t good = 0, of = 0;
 
   double value() const { return of > 0 ? static_cast<double>(good) / static_cast<double>(of) : 0; }
-  double low() const { return centre() - half_width(); }
-  double high() const { return centre() + half_width(); }
+  double low() const { return interval().low; }
+  double high() const { return interval().high; }
 
  private:
-  static constexpr double z = 1.959964;
-  double n() const { return static_cast<double>(of > 0 ? of : 1); }
-  double centre() const { return (value() + z * z / (2 * n())) / (1 + z * z / n()); }
-  double half_width() const {
-    const double p = value();
-    return z / (1 + z * z / n()) * std::sqrt(p * (1 - p) / n() + z * z / (4 * n() * n()));
+  acceptance::Interval interval() const {
+    return acceptance::wilson_interval(value(), static_cast<double>(of > 0 ? of : 1), 1.959964);
   }
 };
 

@@ -8,6 +8,7 @@
 #include "alea/die/pips_likelihood.hpp"
 #include "experiments/die/acceptance.hpp"
 #include "experiments/die/pip_trial.hpp"
+#include "experiments/engine/wilson.hpp"
 
 namespace alea::acceptance {
 namespace {
@@ -15,17 +16,10 @@ namespace {
 /// One-sided 5 % over up to 26 cells (Bonferroni, which is stricter than Holm).
 constexpr double z_over_all_cells = 2.9;
 
-/// Wilson's interval of a proportion (Wilson 1927).
 Cell proportion(const std::string& name, std::uint64_t hits, std::uint64_t n, const Limit& limit,
                 Judgement judgement = Judgement::interval) {
-  const double z = z_over_all_cells, count = static_cast<double>(n);
-  const double p = static_cast<double>(hits) / count;
-  const double centre = (p + z * z / (2 * count)) / (1 + z * z / count);
-  const double half_width =
-      z / (1 + z * z / count) * std::sqrt(p * (1 - p) / count + z * z / (4 * count * count));
-  return {name,     p, {std::max(0.0, centre - half_width), std::min(1.0, centre + half_width)},
-          limit,    n, "",
-          judgement};
+  const double count = static_cast<double>(n), p = static_cast<double>(hits) / count;
+  return {name, p, wilson_interval(p, count, z_over_all_cells), limit, n, "", judgement};
 }
 
 /// What one trial gave.

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "alea/pipeline/register_die.hpp"
 #include "experiments/die/acceptance.hpp"
 #include "experiments/die/faulty_scene.hpp"
+#include "experiments/engine/wilson.hpp"
 
 namespace alea::acceptance {
 namespace {
@@ -38,11 +38,9 @@ std::vector<std::string> outcomes(Fault fault, std::uint64_t seed, std::uint64_t
   return out;
 }
 
-/// Interval of a share that was met k times in n (Wilson 1927).
+/// 95 % interval of a share that was met k times in n.
 Interval wilson(double k, double n) {
-  const double z2 = 1.96 * 1.96, centre = (k + z2 / 2) / (n + z2);
-  const double half = 1.96 / (n + z2) * std::sqrt(k * (n - k) / n + z2 / 4);
-  return {std::max(0.0, centre - half), std::min(1.0, centre + half)};
+  return wilson_interval(k / n, n, 1.96);
 }
 
 }  // namespace

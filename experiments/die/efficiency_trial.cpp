@@ -9,6 +9,7 @@
 #include "alea/die/ideal_observation.hpp"
 #include "alea/evaluate/fisher_bound.hpp"
 #include "alea/simulate/scanner.hpp"
+#include "experiments/die/facet_met.hpp"
 
 namespace alea::experiments::die {
 namespace {
@@ -41,19 +42,6 @@ ObservedDie seen_truth(const Die& die, const RigidTransform& scene_from_scan) {
   for (int f = 0; f < 6; ++f) shape.facets[f] = die.body.planes[f];
   return observe_exactly(shape, facing_pips(shape, scene_from_scan.translation),
                          scene_from_scan.inverse());
-}
-
-/// The facet whose plane the ray through `p` (scanner at the origin) meets last.
-int facet_met(const Eigen::Vector3d& p, const std::array<Plane, 3>& planes) {
-  int facet = 0;
-  double farthest = 0;
-  for (int k = 0; k < 3; ++k) {
-    const double share = planes[k].offset_m / planes[k].normal.dot(p);
-    if (share <= farthest) continue;
-    facet = k;
-    farthest = share;
-  }
-  return facet;
 }
 
 std::array<std::vector<Eigen::Vector3d>, 3> members_by_rays(const Cloud& cloud,

@@ -6,26 +6,13 @@
 #include "alea/die/die_finder.hpp"
 #include "alea/die/ideal_observation.hpp"
 #include "alea/simulate/scanner.hpp"
+#include "experiments/die/facet_met.hpp"
 #include "experiments/die/sweep_die.hpp"
 
 namespace alea::experiments::die {
 namespace {
 
 using FacetSets = std::array<std::vector<Eigen::Vector3d>, 3>;
-
-/// The facet whose plane the ray through `p` (scanner at the origin) meets last: where it enters a
-/// convex body.
-int facet_met(const Eigen::Vector3d& p, const std::array<Plane, 3>& planes) {
-  int facet = 0;
-  double farthest = 0;
-  for (int k = 0; k < 3; ++k) {
-    const double share = planes[k].offset_m / planes[k].normal.dot(p);
-    if (share <= farthest) continue;
-    facet = k;
-    farthest = share;
-  }
-  return facet;
-}
 
 /// The facet whose plane is nearest to the measured point.
 int facet_nearest(const Eigen::Vector3d& p, const std::array<Plane, 3>& planes) {

@@ -7,18 +7,14 @@
 
 #include "alea/core/plane.hpp"
 #include "alea/simulate/scanner.hpp"
+#include "tests/support/silent_scanner.hpp"
 
 namespace alea {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-Scanner silent() {
-  Scanner scanner;
-  scanner.noise = {0, 0, 0, 0};
-  scanner.intensity_noise = 0;
-  return scanner;
-}
+using testing::silent;
 
 /// A wall whose normal at the aim point makes this angle with the ray, seen in a small window.
 struct WallView {

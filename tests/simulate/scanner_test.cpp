@@ -7,16 +7,12 @@
 
 #include "alea/core/error.hpp"
 #include "alea/core/parallel.hpp"
+#include "tests/support/silent_scanner.hpp"
 
 namespace alea {
 namespace {
 
-Scanner silent() {
-  Scanner scanner;
-  scanner.noise = {0, 0, 0, 0};
-  scanner.intensity_noise = 0;
-  return scanner;
-}
+using testing::silent;
 
 /// A die on the floor, seen at 45 deg to two of its sides from 1.6 m above it.
 struct DieView {
