@@ -10,6 +10,7 @@
 #include "alea/core/version.hpp"
 #include "alea/io/atomic_file.hpp"
 #include "alea/io/input_file.hpp"
+#include "experiments/command/calibrate.hpp"
 #include "experiments/command/command.hpp"
 #include "experiments/command/sweep.hpp"
 
@@ -62,6 +63,7 @@ int run(int argc, char** argv) {
            add_transform,
            add_simulate,
            add_register,
+           add_calibrate,
            add_acceptance,
            add_reproduce,
            add_sweep,

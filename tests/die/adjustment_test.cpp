@@ -219,15 +219,16 @@ TEST(Adjustment, AFacetThatDoesNotBelongIsSuspectAndNoOther) {
   options.shape = exact_shape(die.shape);
   const auto clean = adjust_die(two_scans(die), options);
   ASSERT_TRUE(clean);
-  for (const FacetTest& test : clean->facets) EXPECT_FALSE(test.suspect);
+  for (const FacetTest& test : clean->tests) EXPECT_FALSE(test.suspect);
   PlaneFit& wrong = die.slave.facets[1].fit;
   wrong.plane.normal = (wrong.plane.normal + 0.035 * wrong.tangent.col(0)).normalized();  // 2 deg
   wrong.plane.offset_m = wrong.plane.normal.dot(wrong.centroid_m);
   wrong.tangent = tangent_basis(wrong.plane.normal);
   const auto found = adjust_die(two_scans(die), options);
   ASSERT_TRUE(found);
-  for (const FacetTest& test : found->facets)
-    EXPECT_EQ(test.suspect, test.scan == 1 && test.pips == die.slave.facets[1].pips);
+  for (const FacetTest& test : found->tests)
+    EXPECT_EQ(test.suspect, test.scan == 1 && test.pips == die.slave.facets[1].pips)
+        << test.scan << " " << test.pips << " " << test.statistic;
   EXPECT_GT(found->covariance_factor, 10);
 }
 

@@ -51,7 +51,7 @@ TEST(RegisterDie, TwoSharedFacetsRegisterByTheLengthOfTheSharedEdge) {
   const TwoScans scans = scan_twice({});
   const Registration result = register_die(scans.master, scans.slave, with_edge(0.5));
   expect_close_to_truth(result, scans);
-  EXPECT_EQ(result.method, "closed_form");
+  EXPECT_EQ(result.method, "adjustment");
   ASSERT_TRUE(result.die && result.die->shared_edge);
   EXPECT_EQ(result.die->facets.size(), 6u);
   EXPECT_DOUBLE_EQ(*result.die->edge_m, 0.5);

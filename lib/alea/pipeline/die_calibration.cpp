@@ -133,11 +133,12 @@ Result<DieTransform> calibrate_linearly(const DiePair& pair, const std::vector<C
 
 std::vector<CheckPlaneRole> plane_roles(const std::vector<CommonPlane>& planes,
                                         const DieRegistrationOptions& options) {
-  const bool circular = options.method != DieMethod::closed_form;
+  const bool circular = is_published(options.method);
+  const bool uses_planes = options.calibrate || options.join_planes;
   std::vector<CheckPlaneRole> roles(planes.size(), CheckPlaneRole::check);
   if (!options.check_plane_centroids_m.empty()) {
-    roles.assign(planes.size(), options.calibrate && !circular ? CheckPlaneRole::calibration
-                                                               : CheckPlaneRole::check);
+    roles.assign(planes.size(),
+                 uses_planes && !circular ? CheckPlaneRole::calibration : CheckPlaneRole::check);
     for (const Eigen::Vector3d& centroid : options.check_plane_centroids_m) {
       const auto distance_m = [&](const CommonPlane& plane) {
         return (plane.fit_master.centroid_m - centroid).norm() +
@@ -155,7 +156,7 @@ std::vector<CheckPlaneRole> plane_roles(const std::vector<CommonPlane>& planes,
     }
     return roles;
   }
-  if (!options.calibrate || circular) return roles;
+  if (!uses_planes || circular) return roles;
   for (std::size_t rank = 1; rank <= planes.size(); rank += 2)
     roles[rank - 1] = CheckPlaneRole::calibration;
   return roles;
@@ -167,9 +168,9 @@ Result<DieTransform> calibrate_die(const Cloud& master, const Cloud& slave, cons
                                    const DieRegistrationOptions& options) {
   if (pair.transform.lengths_m.size() == 0)
     return pair.transform;  // the transform rests on no length
-  return options.method == DieMethod::closed_form
-             ? calibrate_linearly(pair, planes, roles, options)
-             : calibrate_like_the_paper(master, slave, pair, planes, options);
+  return is_published(options.method)
+             ? calibrate_like_the_paper(master, slave, pair, planes, options)
+             : calibrate_linearly(pair, planes, roles, options);
 }
 
 }  // namespace alea
