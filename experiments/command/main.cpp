@@ -10,6 +10,7 @@
 #include "alea/core/version.hpp"
 #include "alea/io/atomic_file.hpp"
 #include "alea/io/input_file.hpp"
+#include "experiments/command/calibrate.hpp"
 #include "experiments/command/command.hpp"
 #include "experiments/command/sweep.hpp"
 

@@ -50,6 +50,29 @@ void print_die(const DieReport& die) {
                die.calibrated ? " (calibrated)" : "");
 }
 
+void print_adjustment(const AdjustmentReport& report) {
+  fmt::print("adjustment of {} scans: chi-square {:.2f} on {} (p {:.3g})\n", report.scans,
+             report.chi_square, report.freedom, report.p_value);
+  for (const VarianceComponent& component : report.components)
+    fmt::print("  {:<12} {:<8} actual variance {:.3f} of the assumed (redundancy {:.1f})\n",
+               component.group,
+               component.scan
+                   ? (*component.scan == 0 ? "master" : fmt::format("scan {}", *component.scan + 1))
+                   : "",
+               component.factor, component.freedom);
+  for (const std::string& open : report.open) fmt::print("  not observable: {}\n", open);
+}
+
+void print_site(const SiteTie& site) {
+  fmt::print("site_from_master (control points, {:.2f} mm RMSE)\n", site.rmse_m * 1e3);
+  const Eigen::Matrix4d m = site.site_from_master.matrix();
+  for (int i = 0; i < 4; ++i)
+    fmt::print("  {:13.9f} {:13.9f} {:13.9f} {:14.6f}\n", m(i, 0), m(i, 1), m(i, 2), m(i, 3));
+  for (const ControlResidual& point : site.points)
+    fmt::print("  {:<12} residual {:8.2f} {:8.2f} {:8.2f} mm\n", point.name,
+               point.residual_m.x() * 1e3, point.residual_m.y() * 1e3, point.residual_m.z() * 1e3);
+}
+
 }  // namespace
 
 void print_check_planes(const std::vector<CheckPlane>& planes) {
@@ -77,6 +100,8 @@ void print_registration(const Registration& registration) {
         "mm\n",
         refined->method, refined->planes, refined->rotation_rad * deg_per_rad,
         refined->translation_m.norm() * 1e3);
+  if (registration.adjustment) print_adjustment(*registration.adjustment);
+  if (registration.site) print_site(*registration.site);
   print_check_planes(registration.check_planes);
 }
 

@@ -8,6 +8,8 @@
 #include <map>
 #include <memory>
 #include <numbers>
+#include <span>
+#include <sstream>
 
 #include "alea/core/error.hpp"
 #include "alea/core/parallel.hpp"
@@ -15,6 +17,7 @@
 #include "alea/pipeline/die_stages.hpp"
 #include "alea/report/die_page.hpp"
 #include "experiments/command/centroid_file.hpp"
+#include "experiments/command/control_file.hpp"
 #include "experiments/command/die_file.hpp"
 #include "experiments/command/noise_file.hpp"
 #include "experiments/command/reading.hpp"
@@ -31,21 +34,24 @@ struct DieArguments {
   std::vector<double> edges_m;
   double edge_sd_m = 0;
   std::string shape_file;
-  std::string method = "closed_form";
+  std::string method = "adjustment";
   std::string planes;
   std::string refine = "none";
   bool calibrate = false;
   std::string chirality = "clockwise";
-  double tilt_prior_deg = 0;
+  double tilt_prior_deg = 0, level_sd_arcsec = 0;
+  bool join_planes = false;
   std::string near, master_origin, slave_origin;
   std::string check_planes_file, noise_file;
   std::string report_folder;
+  ControlOptions control;
   ReadingOptions reading;
 };
 
 const std::map<std::string, DieMethod> methods{{"paper", DieMethod::paper},
                                                {"paper_literal", DieMethod::paper_literal},
-                                               {"closed_form", DieMethod::closed_form}};
+                                               {"closed_form", DieMethod::closed_form},
+                                               {"adjustment", DieMethod::adjustment}};
 const std::map<std::string, Refinement> refinements{
     {"none", Refinement::none}, {"planes", Refinement::planes}, {"icp", Refinement::icp}};
 constexpr double smallest_edge_m = 0.02, largest_edge_m = 10;
@@ -74,13 +80,18 @@ DieRegistrationOptions registration_options(const DieArguments& arguments) {
   if (arguments.edge_sd_m < 0)
     throw usage_error("--edge-sd: a standard deviation is not negative; give metres");
   if (arguments.edge_sd_m > 0) options.edge_sd_m = arguments.edge_sd_m;
-  if (!arguments.shape_file.empty()) options.shape = read_die_file(arguments.shape_file);
+  if (!arguments.shape_file.empty()) {
+    GivenShape given =
+        read_die_file(arguments.shape_file, arguments.edge_m > 0 ? arguments.edge_m / 2 : 0.25);
+    options.shape = given.shape;
+    options.shape_covariance = given.covariance;
+  }
   if (options.edge_m == 0 && !options.edges_m && !options.shape)
     throw usage_error(
         "the die's size is not known; give --edge METRES, --edges A,B,C or --die DIE.json");
   options.method = methods.at(arguments.method);
   // The published chain includes its own detector.
-  const bool published = options.method != DieMethod::closed_form;
+  const bool published = is_published(options.method);
   options.planes = plane_detector_from_name(!arguments.planes.empty() ? arguments.planes
                                             : published               ? "ndt_ransac"
                                                                       : "cells");
@@ -92,6 +103,9 @@ DieRegistrationOptions registration_options(const DieArguments& arguments) {
         arguments.chirality == "clockwise" ? Chirality::clockwise : Chirality::counterclockwise;
   if (arguments.tilt_prior_deg > 0)
     options.tilt_prior_rad = arguments.tilt_prior_deg * std::numbers::pi / 180;
+  if (arguments.level_sd_arcsec > 0)
+    options.level_sd_rad = arguments.level_sd_arcsec * std::numbers::pi / 180 / 3600;
+  options.join_planes = arguments.join_planes;
   options.near_m = point("--near", arguments.near);
   if (!arguments.check_planes_file.empty())
     options.check_plane_centroids_m = read_centroid_file(arguments.check_planes_file);
@@ -120,6 +134,9 @@ std::filesystem::path report_folder(const DieArguments& arguments, std::size_t s
 
 int run(const DieArguments& arguments) {
   const DieRegistrationOptions options = registration_options(arguments);
+  if (!arguments.control.control_file.empty() && arguments.control.targets_file.empty())
+    throw usage_error(
+        "--control: also give --targets FILE, the same points in the master's frame (name x y z)");
   const auto master_origin = point("--master-origin", arguments.master_origin);
   const auto slave_origin = point("--slave-origin", arguments.slave_origin);
   const ThreadLimit limit(arguments.common.threads);
@@ -132,18 +149,44 @@ int run(const DieArguments& arguments) {
   const double read_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
+  const std::span<const Cloud> slaves(clouds.data() + 1, clouds.size() - 1);
   std::vector<Registration> results;
-  for (std::size_t i = 1; i < clouds.size(); ++i) {
-    StagedDieRegistration staged = register_die_in_stages(clouds[0], clouds[i], options);
-    Registration& result = staged.registration;
+  if (arguments.report_folder.empty()) {
+    results = register_die(clouds[0], slaves, options);
+  } else {
+    for (StagedDieRegistration& staged : register_die_in_stages(clouds[0], slaves, options)) {
+      const std::size_t scan = results.size() + 1;
+      write_page(report_folder(arguments, scan),
+                 die_page(staged, arguments.scans[0], arguments.scans[scan]));
+      results.push_back(std::move(staged.registration));
+    }
+  }
+  for (Registration& result : results) {
     result.timing_s.insert(result.timing_s.begin(), {"read", read_s});
     result.timing_s.back().second += read_s;
-    if (!arguments.report_folder.empty())
-      write_page(report_folder(arguments, i),
-                 die_page(staged, arguments.scans[0], arguments.scans[i]));
-    results.push_back(std::move(result));
   }
+  tie_to_control(arguments.control, {}, results);
   return finish_registrations(arguments.common, results);
+}
+
+/// What is known of the die.
+void add_die_options(CLI::App& app, DieArguments& a) {
+  app.add_option("--edge", a.edge_m,
+                 "Length of the die's shared edge, corner to corner (m, 0.02 to 10)");
+  app.add_option("--edges", a.edges_m, "Three edge lengths of a cuboid (m), as A,B,C")
+      ->delimiter(',')
+      ->expected(3);
+  app.add_option("--edge-sd", a.edge_sd_m,
+                 "Standard deviation of --edge (m); without it --edge is exact");
+  app.add_option("--die", a.shape_file,
+                 "Calibrated shape (DIE.json, or the truth.json of simulate)");
+  app.add_flag("--calibrate", a.calibrate,
+               "Estimate the edge length on planes that both scans see");
+  app.add_option("--chirality", a.chirality,
+                 "How 1, 2, 3 run about their corner, seen from outside")
+      ->check(CLI::IsMember({"clockwise", "counterclockwise", "any"}))
+      ->capture_default_str();
+  app.add_option("--near", a.near, "Where the die is, roughly, in the master frame: X,Y,Z (m)");
 }
 
 }  // namespace
@@ -156,19 +199,12 @@ void add_register_die(CLI::App& parent, int& exit_code) {
                   "Master scan, then one or more slave scans (PLY, PCD, XYZ, PTS, PTX, E57, LAS)")
       ->required()
       ->expected(2, 1000);
-  app->add_option("--edge", a.edge_m,
-                  "Length of the die's shared edge, corner to corner (m, 0.02 to 10)");
-  app->add_option("--edges", a.edges_m, "Three edge lengths of a cuboid (m), as A,B,C")
-      ->delimiter(',')
-      ->expected(3);
-  app->add_option("--edge-sd", a.edge_sd_m,
-                  "Standard deviation of --edge (m); without it --edge is exact");
-  app->add_option("--die", a.shape_file,
-                  "Calibrated shape (DIE.json, or the truth.json of simulate)");
-  app->add_option("--method", a.method,
-                  "closed_form: shared edge and facets; paper: the published chain, corrected; "
-                  "paper_literal: as printed")
-      ->check(CLI::IsMember({"paper", "paper_literal", "closed_form"}))
+  add_die_options(*app, a);
+  app->add_option(
+         "--method", a.method,
+         "adjustment: all scans in one least squares; closed_form: shared edge and facets, "
+         "slave by slave; paper: the published chain, corrected; paper_literal: as printed")
+      ->check(CLI::IsMember({"paper", "paper_literal", "closed_form", "adjustment"}))
       ->capture_default_str();
   app->add_option("--planes", a.planes,
                   "Plane detector (default: cells; ndt_ransac for the paper's methods)")
@@ -178,17 +214,18 @@ void add_register_die(CLI::App& parent, int& exit_code) {
                   "(never the check planes): planes, or point-to-plane icp on their points")
       ->check(CLI::IsMember({"none", "planes", "icp"}))
       ->capture_default_str();
-  app->add_flag("--calibrate", a.calibrate,
-                "Estimate the edge length on planes that both scans see");
-  app->add_option("--chirality", a.chirality,
-                  "How 1, 2, 3 run about their corner, seen from outside")
-      ->check(CLI::IsMember({"clockwise", "counterclockwise", "any"}))
-      ->capture_default_str();
   app->add_option("--tilt-prior-deg", a.tilt_prior_deg,
                   "Standard deviation of the facets' tilts (deg), where only one "
                   "facet is shared")
       ->check(CLI::PositiveNumber);
-  app->add_option("--near", a.near, "Where the die is, roughly, in the master frame: X,Y,Z (m)");
+  app->add_option("--level-sd-arcsec", a.level_sd_arcsec,
+                  "Levelled scanners: standard deviation of their z axes from the vertical (arc "
+                  "seconds; adjustment only)")
+      ->check(CLI::PositiveNumber);
+  app->add_flag(
+      "--join-planes", a.join_planes,
+      "Planes that both scans see take part in the adjustment; every second one, or those "
+      "that --check-planes does not name");
   app->add_option("--master-origin", a.master_origin,
                   "Scanner position in the master's frame: X,Y,Z (m)");
   app->add_option("--slave-origin", a.slave_origin,
@@ -200,6 +237,7 @@ void add_register_die(CLI::App& parent, int& exit_code) {
   app->add_option("--report", a.report_folder,
                   "Folder for a page with pictures of every stage (index.html, PNG), also of a "
                   "refusal; with several slaves one folder in it for each");
+  add_control_options(*app, a.control);
   add_reading_options(*app, a.reading);
   add_common_options(*app, a.common);
   app->callback([arguments, &exit_code] { exit_code = run(*arguments); });

@@ -4,12 +4,14 @@
 
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "alea/core/error.hpp"
 #include "alea/core/parallel.hpp"
 #include "alea/io/cloud_file.hpp"
+#include "experiments/command/control_file.hpp"
 #include "experiments/command/noise_file.hpp"
 #include "experiments/command/reading.hpp"
 #include "experiments/command/register.hpp"
@@ -25,9 +27,11 @@ struct SphereArguments {
   bool free_radius = false;
   std::string method = "along_ray";
   std::string master_origin, slave_origin, noise_file;
+  ControlOptions control;
   ReadingOptions reading;
 };
 
+constexpr double control_sd_m = 0.002;  // of a control point whose own is not given
 constexpr double smallest_radius_m = 0.005, largest_radius_m = 5;
 
 std::optional<Eigen::Vector3d> origin(const std::string& option, const std::string& text) {
@@ -88,6 +92,28 @@ void print_spheres(const SpheresRegistered& result) {
   }
 }
 
+/// The master's spheres under the names of the control points that their distances match.
+std::vector<NamedPoint> named_spheres(const ControlOptions& control,
+                                      const std::vector<SphereTarget>& spheres) {
+  if (control.control_file.empty() || !control.targets_file.empty()) return {};
+  const std::vector<NamedPoint> site = read_named_points(control.control_file);
+  std::vector<SphereFit> given, found;
+  for (const NamedPoint& point : site) {
+    SphereFit fit;
+    fit.centre_m = point.point_m;
+    fit.covariance = Eigen::Matrix3d::Identity() * std::pow(point.sd_m.value_or(control_sd_m), 2);
+    given.push_back(fit);
+  }
+  for (const SphereTarget& sphere : spheres) found.push_back(sphere.fit);
+  const auto matched = match_and_register(given, found);
+  std::vector<NamedPoint> named;
+  if (!matched) return named;
+  for (const SpherePair& pair : matched->pairs)
+    named.push_back({site[pair.master].name, found[pair.slave].centre_m,
+                     std::sqrt(found[pair.slave].covariance.trace() / 3)});
+  return named;
+}
+
 int run(const SphereArguments& arguments) {
   using Clock = std::chrono::steady_clock;
   const auto since = [](Clock::time_point start) {
@@ -111,12 +137,17 @@ int run(const SphereArguments& arguments) {
   } else {
     registration.refusal = result.refusal();
   }
+  std::vector<Registration> tied{std::move(registration)};
+  tie_to_control(
+      arguments.control,
+      result ? named_spheres(arguments.control, result->master) : std::vector<NamedPoint>(), tied);
+  registration = std::move(tied.front());
   const double total_s = since(start);
   registration.timing_s = {{"read", read_s}, {"register", total_s - read_s}, {"total", total_s}};
   nlohmann::json document = registration_json(registration, arguments.common.seed);
   document["spheres"] = result ? spheres_json(*result) : nlohmann::json::array();
   write_json(arguments.common, document);
-  if (!result) return report_refusal(result.refusal());
+  if (registration.refusal) return report_refusal(*registration.refusal);
   if (arguments.common.json == "-") return exit_done;
   print_registration(registration);
   print_spheres(*result);
@@ -147,6 +178,7 @@ void add_register_spheres(CLI::App& parent, int& exit_code) {
   app->add_option("--slave-origin", a.slave_origin,
                   "Scanner position in the slave's frame: X,Y,Z (m)");
   app->add_option("--noise", a.noise_file, "Noise model (JSON) behind the covariance");
+  add_control_options(*app, a.control);
   add_reading_options(*app, a.reading);
   add_common_options(*app, a.common);
   app->callback([arguments, &exit_code] { exit_code = run(*arguments); });

@@ -30,10 +30,7 @@ json optional_json(const std::optional<T>& value) {
   return value ? json(*value) : json(nullptr);
 }
 
-json transform_json(const Registration& registration) {
-  if (!registration.master_from_slave) return nullptr;
-  const RigidTransform& t = *registration.master_from_slave;
-  const auto& covariance = registration.covariance;
+json transform_json(const RigidTransform& t, const std::optional<TransformCovariance>& covariance) {
   const Eigen::Quaterniond q(t.rotation);
   const double sign = q.w() < 0 ? -1 : 1;
   return {{"matrix", matrix_json(t.matrix())},
@@ -43,6 +40,20 @@ json transform_json(const Registration& registration) {
           {"omega_phi_kappa_deg", vector_json(omega_phi_kappa_rad(t.rotation) * deg_per_rad)},
           {"translation_m", vector_json(t.translation)},
           {"quaternion_wxyz", {sign * q.w(), sign * q.x(), sign * q.y(), sign * q.z()}}};
+}
+
+json site_json(const SiteTie& site, const RigidTransform& master_from_slave) {
+  json points = json::array();
+  for (const ControlResidual& point : site.points)
+    points.push_back({{"name", point.name},
+                      {"site_m", vector_json(point.site_m)},
+                      {"master_m", vector_json(point.master_m)},
+                      {"residual_m", vector_json(point.residual_m)}});
+  return {{"site_from_master", transform_json(site.site_from_master, site.covariance)},
+          {"site_from_slave",
+           {{"matrix", matrix_json((site.site_from_master * master_from_slave).matrix())}}},
+          {"points", points},
+          {"rmse_m", site.rmse_m}};
 }
 
 json angles_json(const std::map<std::string, double>& angles_rad) {
@@ -89,6 +100,38 @@ json refinement_json(const std::optional<RefinementReport>& refinement) {
           {"about_m", vector_json(refinement->about_m)}};
 }
 
+json test_json(const FacetTest& test) {
+  return {{"scan", test.scan},
+          {"pips", test.pips},
+          {"tilt_rad", {test.residual[0], test.residual[1]}},
+          {"offset_m", test.residual[2]},
+          {"standardised", vector_json(test.standardised)},
+          {"chi_square", test.statistic},
+          {"freedom", test.freedom},
+          {"p_value", test.p_value},
+          {"suspect", test.suspect}};
+}
+
+json adjustment_json(const AdjustmentReport& report) {
+  json components = json::array(), facets = json::array();
+  for (const VarianceComponent& component : report.components)
+    components.push_back({{"group", component.group},
+                          {"scan", optional_json(component.scan)},
+                          {"factor", component.factor},
+                          {"freedom", component.freedom}});
+  for (const FacetTest& test : report.tests) facets.push_back(test_json(test));
+  return {{"scans", report.scans},
+          {"chi_square", report.chi_square},
+          {"freedom", report.freedom},
+          {"p_value", report.p_value},
+          {"covariance_factor", report.covariance_factor},
+          {"rank_defect", report.defect},
+          {"unobservable", report.open},
+          {"variance_components", components},
+          {"facets", facets},
+          {"iterations", report.iterations}};
+}
+
 }  // namespace
 
 json check_plane_json(const CheckPlane& plane) {
@@ -126,10 +169,18 @@ json registration_json(const Registration& registration, std::uint64_t seed) {
           {"method", registration.method},
           {"seed", seed},
           {"warnings", registration.warnings},
-          {"master_from_slave", transform_json(registration)},
+          {"master_from_slave",
+           registration.master_from_slave
+               ? transform_json(*registration.master_from_slave, registration.covariance)
+               : json(nullptr)},
           {"die", registration.die ? die_json(*registration.die) : json(nullptr)},
           {"ambiguity", ambiguity},
           {"refinement", refinement_json(registration.refinement)},
+          {"adjustment",
+           registration.adjustment ? adjustment_json(*registration.adjustment) : json(nullptr)},
+          {"site", registration.site && registration.master_from_slave
+                       ? site_json(*registration.site, *registration.master_from_slave)
+                       : json(nullptr)},
           {"check_planes", planes},
           {"timing_s", timing}};
 }

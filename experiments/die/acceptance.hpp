@@ -17,6 +17,12 @@ void run_bound_ranges(const Options& options, const Report& report);
 void run_bound_ranks(const Options& options, const Report& report);
 /// Issue bound, lines 1 and 4: the adjustment against the bound, its covariance, its bias.
 void run_adjustment_topic(const Options& options, const Report& report);
+/// Issue bound, line 4: the same where the model does not hold; shown, not judged.
+void run_misfit(const Options& options, const Report& report);
+/// Issue bound, line 4: the covariance of a registration by planes of the scene alone.
+void run_planes_only(const Options& options, const Report& report);
+/// Issue bound, line 7: planted wrong facets and false flags.
+void run_suspects(const Options& options, const Report& report);
 /// Issue die, line 10: registration by six spheres against its bound.
 void run_spheres(const Options& options, const Report& report);
 /// Issue die, line 7: the counting chain and the likelihood reader on simulated facets.

@@ -93,7 +93,7 @@ void run_adjustment_topic(const Options& options, const Report& all_cells) {
     setting.range_m = range_m;
     setting.step_rad = step_rad;
     const auto trials = run_adjustment_trials(setting, options.seed, options.trials_or(own_trials));
-    for (std::size_t method = 1; method < pair_methods.size(); ++method)
+    for (std::size_t method = 0; method < pair_methods.size(); ++method)
       report_method(fmt::format("{:g} m, {:g} m, {:g} mrad, {}: ", edge_m, range_m, step_rad * 1e3,
                                 to_string(pair_methods[method])),
                     trials, method, bias_probabilities, report);

@@ -10,11 +10,13 @@
 #include "alea/simulate/scanner.hpp"
 #include "alea/sphere/sphere_registration.hpp"
 #include "experiments/die/acceptance.hpp"
+#include "experiments/engine/sample_mean.hpp"
 
 namespace alea::acceptance {
 namespace {
 
 constexpr double deg = std::numbers::pi / 180;
+constexpr double chi_square_95 = 12.5916;  // six degrees of freedom
 constexpr double radius_m = 0.0725, ring_m = 4, height_m = 1.6, step_rad = 3e-4;
 
 /// Six spheres on a ring of 4 m, at heights that a tripod allows; the target point is the ring's
@@ -131,6 +133,11 @@ void report_method(double range_m, SphereFitMethod method, const std::vector<Err
   Cell consistency = ratio_cell(at + "root of NEES/6", nees, 1);
   consistency.judgement = Judgement::shown;
   report(consistency);
+  std::vector<double> inside;
+  for (const double square : nees) inside.push_back(6 * square <= chi_square_95 ? 1 : 0);
+  Cell coverage = mean_cell(at + "inside the 95 % region", inside, within(0.95, 0.015));
+  coverage.judgement = control ? Judgement::shown : Judgement::point;
+  report(coverage);
   Cell refused;
   refused.name = at + "refused";
   refused.value = static_cast<double>(errors.size() - rotation.size());

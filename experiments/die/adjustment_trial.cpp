@@ -47,7 +47,13 @@ PairError by_adjustment(const ObservedPair& pair, bool shape_known) {
   PairError out = error_of(pair, pose.master_from_scan, pose.covariance);
   out.chi_square = found->chi_square;
   out.freedom = found->freedom;
-  out.suspect = std::any_of(found->facets.begin(), found->facets.end(),
+  out.points_factor = 0;
+  for (const VarianceComponent& component : found->components)
+    if (component.group == "facets")
+      out.facets_factor = component.factor;
+    else if (component.group == "points")
+      out.points_factor += component.factor / 2;
+  out.suspect = std::any_of(found->tests.begin(), found->tests.end(),
                             [](const FacetTest& test) { return test.suspect; });
   return out;
 }

@@ -21,7 +21,9 @@ struct PairError {
   double nees = 0;                    ///< error' covariance^-1 error, six degrees of freedom
   double chi_square = 0;              ///< of the adjustment
   int freedom = 0;
-  bool suspect = false;  ///< some facet was flagged
+  bool suspect = false;      ///< some facet was flagged
+  double points_factor = 1;  ///< variance components: within the facets (mean of both scans) ...
+  double facets_factor = 1;  ///< ... and between the scans
 };
 
 struct AdjustmentTrial {

@@ -20,6 +20,8 @@ Die draw_die(const EfficiencyCase& setting, std::uint64_t seed, std::uint64_t tr
   DieModel model;
   model.size_m.setConstant(setting.edge_m);
   model.pips.painted = false;
+  model.edge_radius_m = setting.edge_radius_m;
+  for (FacetShape& facet : model.facets) facet.bow_m = setting.bow_m;
   model.scene_from_die.translation.z() = setting.edge_m / 2;  // on the floor z = 0, 1 up
   return build_die(
       with_random_shape(model, {setting.tilt_sd_rad, 0, 0}, seed, experiment_number, trial));
@@ -52,6 +54,24 @@ std::array<std::vector<Eigen::Vector3d>, 3> members_by_rays(const Cloud& cloud,
   return members;
 }
 
+/// The scan without what lies nearer to two facets of the true die than `radius_m`.
+Cloud away_from_edges(const Cloud& cloud, const Die& die, const RigidTransform& scene_from_scan,
+                      double radius_m) {
+  std::vector<std::uint32_t> kept;
+  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+    const Eigen::Vector3d p = scene_from_scan * cloud.positions[i];
+    int near = 0;
+    for (const Plane& plane : die.body.planes) near += plane.signed_distance(p) > -radius_m ? 1 : 0;
+    if (near < 2) kept.push_back(i);
+  }
+  return subset(cloud, kept);
+}
+
+void shift(PlaneFit& fit, double offset_m) {
+  fit.centroid_m += offset_m * fit.plane.normal;
+  fit.plane.offset_m += offset_m;
+}
+
 /// First planes from members that know the truth, then fits to members by what was measured alone.
 std::array<PlaneFit, 3> fit_by_rays(const Cloud& cloud, const std::array<Plane, 3>& truth,
                                     const PlaneFitOptions& options) {
@@ -74,13 +94,20 @@ ScanResult observe(const Scene& scene, const EfficiencyCase& setting,
   const auto [column, row] = phases.uniform2_at(0);
   const Station station =
       aimed_station(scene_from_scan, bounding_ball(scene.dice[0]), setting.step_rad, {column, row});
-  const Cloud cloud = simulate_scan(scene, station, key);
+  Cloud cloud = simulate_scan(scene, station, key);
+  if (setting.edge_radius_m > 0)
+    cloud = away_from_edges(cloud, scene.dice[0], scene_from_scan, setting.edge_radius_m);
   const ObservedDie truth = seen_truth(scene.dice[0], scene_from_scan);
   PlaneFitOptions options;
   options.method = setting.fit;
   const auto fits = fit_by_rays(cloud, planes_of(truth), options);
   ScanResult result{truth, 0};
-  for (int k = 0; k < 3; ++k) result.die.facets[k].fit = fits[k];
+  RandomStream biases({key.seed, key.experiment, key.trial, key.scan, Purpose::experiment});
+  for (int k = 0; k < 3; ++k) {
+    result.die.facets[k].fit = fits[k];
+    if (setting.facet_bias_sd_m > 0)
+      shift(result.die.facets[k].fit, setting.facet_bias_sd_m * biases.normal());
+  }
   // The upper facet has one pip, so it comes first.
   Eigen::Vector3d to_scanner = -fits[0].centroid_m;
   to_scanner.z() = 0;

@@ -20,6 +20,10 @@ struct EfficiencyCase {
   double step_rad = 1e-3;
   double tilt_sd_rad = 0.00698;  ///< 0.4 deg, each facet, two directions
   FitMethod fit = FitMethod::along_ray;
+  // What no noise model knows of.
+  double bow_m = 0;            ///< of every facet, outward
+  double edge_radius_m = 0;    ///< points nearer than this to an edge are left out
+  double facet_bias_sd_m = 0;  ///< range bias: each facet in each scan lies off by its own offset
 };
 
 struct EfficiencyTrial {

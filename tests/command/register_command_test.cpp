@@ -66,7 +66,7 @@ TEST_F(RegisterCommand, PrintsTheResultAsJson) {
   const json result = json::parse(run.out);
   EXPECT_EQ(result["status"], "registered");
   EXPECT_TRUE(result["refusal"].is_null());
-  EXPECT_EQ(result["method"], "closed_form");
+  EXPECT_EQ(result["method"], "adjustment");
   EXPECT_EQ(result["die"]["facets"].size(), 6u);
   Eigen::Matrix4d estimate;
   for (int i = 0; i < 16; ++i)

@@ -121,21 +121,33 @@ void add_shape(const AdjustmentProblem& problem, const AdjustmentLayout& layout,
     out.length_determined[axis] = out.shape.facet(axis + 1) &&
                                   out.shape.facet(opposite_pips(axis + 1)) &&
                                   is_determined(solved.solution, length_by_unknowns(layout, axis));
+  const auto sd = [&](const Eigen::RowVectorXd& row) {
+    return std::sqrt(out.covariance_factor *
+                     (row * solved.solution.covariance * row.transpose())(0, 0));
+  };
   for (int first = 1; first <= 5; ++first)
     for (int second = first + 1; second <= 6; ++second) {
-      if (second == opposite_pips(first)) continue;
       const EdgeName name{first, second};
+      if (second == opposite_pips(first) || !out.shape.facet(first) || !out.shape.facet(second))
+        continue;
+      AdjustedAngle angle{name, {}, {}};
+      const Eigen::RowVectorXd by_angle = angle_by_unknowns(layout, facets, first, second);
+      if (is_determined(solved.solution, by_angle)) {
+        angle.angle_rad =
+            std::acos(-out.shape.facet(first)->normal.dot(out.shape.facet(second)->normal));
+        angle.sd_rad = sd(by_angle);
+      }
+      out.angles.push_back(angle);
       if (!edge_length_m(out.shape, first, second)) continue;
       const EdgeByShape edge = edge_of(facets, name);
-      Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(layout.size);
+      Eigen::RowVectorXd by_edge = Eigen::RowVectorXd::Zero(layout.size);
       for (int f = 0; f < 6; ++f)
         if (layout.facet[f] >= 0)
-          row.segment<3>(layout.facet[f]) = edge.by_departure.segment<3>(3 * f);
+          by_edge.segment<3>(layout.facet[f]) = edge.by_departure.segment<3>(3 * f);
       AdjustedEdge adjusted{name, {}, {}};
-      if (is_determined(solved.solution, row)) {
+      if (is_determined(solved.solution, by_edge)) {
         adjusted.length_m = edge.length_m;
-        adjusted.sd_m = std::sqrt(out.covariance_factor *
-                                  (row * solved.solution.covariance * row.transpose())(0, 0));
+        adjusted.sd_m = sd(by_edge);
       }
       out.edges.push_back(adjusted);
     }
@@ -159,7 +171,7 @@ void add_tests(const AdjustmentProblem& problem, const AdjustmentOptions& option
   if (out.freedom > 0 && out.p_value < doubtful_level)
     out.covariance_factor = out.chi_square / out.freedom;
   for (std::size_t s = 0; s < problem.scans.size(); ++s) {
-    VarianceComponent points{fmt::format("points of scan {}", s + 1), 0, 0};
+    VarianceComponent points{"points", s, 0, 0};
     for (const ObservedFacet& facet : problem.scans[s].die.facets) {
       const double freedom = static_cast<double>(facet.fit.points) - 3;
       if (freedom <= 0) continue;
@@ -172,7 +184,7 @@ void add_tests(const AdjustmentProblem& problem, const AdjustmentOptions& option
   }
   const auto groups = variance_components(solved.linearised, solved.solution.covariance);
   out.components.insert(out.components.end(), groups.begin(), groups.end());
-  out.facets = test_facets(solved.linearised, solved.solution.covariance, options.alarm_level);
+  out.tests = test_facets(solved.linearised, solved.solution.covariance, options.alarm_level);
 }
 
 void add_poses(const AdjustmentLayout& layout, const AdjustmentOptions& options,

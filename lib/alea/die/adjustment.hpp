@@ -9,6 +9,7 @@
 
 #include "alea/core/result.hpp"
 #include "alea/core/rigid_transform.hpp"
+#include "alea/die/adjustment_quality.hpp"
 #include "alea/die/closed_form.hpp"
 #include "alea/die/observed_die.hpp"
 #include "alea/die/shape_prior.hpp"
@@ -55,34 +56,18 @@ struct AdjustedPose {
   bool determined = true;           ///< false: some direction of it is open
 };
 
-/// Does a facet belong? Its observation against the same adjustment without it (data snooping,
-/// Baarda 1968): the reduction of the sum of squares, chi-square with `freedom`.
-struct FacetTest {
-  std::size_t scan = 0;
-  int pips = 0;
-  /// Observed minus adjusted: two tilts (rad) about the adjusted facet's tangent vectors, offset at
-  /// its centre (m).
-  Eigen::Vector3d residual = Eigen::Vector3d::Zero();
-  Eigen::Vector3d standardised = Eigen::Vector3d::Zero();  ///< zero where nothing checks it
-  double statistic = 0;
-  int freedom = 0;  ///< 0: nothing checks this facet
-  double p_value = 1;
-  bool suspect = false;
-};
-
-/// Squared residuals of a group over what was assumed; 1 where the assumption holds.
-struct VarianceComponent {
-  std::string group;
-  double factor = 1;
-  double freedom = 0;  ///< redundancy of the group; its factor has a standard deviation of
-                       ///< sqrt(2 / freedom)
-};
-
 /// An edge of the die, corner to corner; numbers only where it is determined.
 struct AdjustedEdge {
   EdgeName edge;
   std::optional<double> length_m;
   std::optional<double> sd_m;
+};
+
+/// The angle inside the die between two facets that meet; numbers only where it is determined.
+struct AdjustedAngle {
+  EdgeName edge;
+  std::optional<double> angle_rad;
+  std::optional<double> sd_rad;
 };
 
 struct DieAdjustment {
@@ -94,9 +79,10 @@ struct DieAdjustment {
   ShapeMatrix shape_covariance = ShapeMatrix::Zero();
   /// Along 1-6, 2-5, 3-4: whether the distance between the two facets is determined.
   std::array<bool, 3> length_determined{};
-  std::vector<AdjustedEdge> edges;  ///< those of which all four facets were seen
-  int defect = 0;                   ///< directions that the observations leave open
-  std::vector<std::string> open;    ///< the same in words, one for each
+  std::vector<AdjustedEdge> edges;    ///< those of which all four facets were seen
+  std::vector<AdjustedAngle> angles;  ///< of all pairs of facets that were seen
+  int defect = 0;                     ///< directions that the observations leave open
+  std::vector<std::string> open;      ///< the same in words, one for each
   double chi_square = 0;
   int freedom = 0;
   double p_value = 1;
@@ -104,7 +90,7 @@ struct DieAdjustment {
   /// fails at 0.1 %.
   double covariance_factor = 1;
   std::vector<VarianceComponent> components;
-  std::vector<FacetTest> facets;
+  std::vector<FacetTest> tests;  ///< facets, then planes of the scene
   int iterations = 0;
 };
 

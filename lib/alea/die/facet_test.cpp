@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <limits>
@@ -13,12 +14,13 @@ namespace {
 /// A direction of a facet that the others check by less than this share of its own variance is not
 /// tested: its residual would be the rounding of the rest.
 constexpr double least_redundancy = 1e-6;
-constexpr double same_statistic = 1e-6;  // of itself: two facets that the data cannot tell apart
+/// Facets whose statistics differ by less cannot be told apart: a log-likelihood of 6.
+constexpr double same_statistic = 12;
 
 FacetTest test_facet(const AdjustmentObservation& o, const Eigen::MatrixXd& covariance) {
   FacetTest test;
   test.scan = o.scan;
-  test.pips = o.label;
+  (o.group == ObservationGroup::facets ? test.pips : test.plane) = o.label;
   test.residual = o.misclosure;
   // In units of the observation's own standard deviations its residuals have a covariance of one
   // less what the unknowns took: eigenvalues from 0 (nothing checks) to 1.
@@ -62,16 +64,18 @@ std::vector<FacetTest> test_facets(const LinearisedAdjustment& linearised,
   int tested = 0;
   double strangest = -std::numeric_limits<double>::infinity();
   for (const AdjustmentObservation& o : linearised.observations) {
-    if (o.group != ObservationGroup::facets) continue;
+    if (o.group != ObservationGroup::facets && o.group != ObservationGroup::planes) continue;
     tests.push_back(test_facet(o, covariance));
     if (tests.back().freedom == 0) continue;
     ++tested;
     strangest = std::max(strangest, strangeness(tests.back()));
   }
-  // One facet that does not belong shows in its neighbours too: only the strangest is suspect.
+  std::stable_partition(tests.begin(), tests.end(), [](const auto& test) { return test.pips > 0; });
+  // One facet that does not belong shows in its neighbours too: only the strangest is
+  // suspect, and what is not clearly less strange.
   for (FacetTest& test : tests)
     test.suspect = test.freedom > 0 && test.p_value < alarm_level / tested &&
-                   strangeness(test) >= strangest * (1 - same_statistic);
+                   strangeness(test) >= strangest - same_statistic;
   return tests;
 }
 
@@ -101,7 +105,7 @@ std::vector<VarianceComponent> variance_components(const LinearisedAdjustment& l
       freedom +=
           rank_of(o) - (o.weight * o.by_unknowns * covariance * o.by_unknowns.transpose()).trace();
     }
-    if (freedom > 1e-6) components.push_back({name, squares / freedom, freedom});
+    if (freedom > 1e-6) components.push_back({name, {}, squares / freedom, freedom});
   }
   return components;
 }

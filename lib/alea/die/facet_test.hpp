@@ -9,9 +9,9 @@ namespace alea {
 /// Upper tail of the chi-square distribution.
 double chi_square_tail(double statistic, double freedom);
 
-/// Tests every facet observation against the rest (data snooping). Where several facets cannot be
-/// told apart by the data, all of them are suspect together. `alarm_level`: chance of any false
-/// alarm.
+/// Tests every facet and every plane of the scene against the rest (data snooping). Where several
+/// cannot be told apart by the data, all of them are suspect together. `alarm_level`: chance of any
+/// false alarm.
 std::vector<FacetTest> test_facets(const LinearisedAdjustment& linearised,
                                    const Eigen::MatrixXd& covariance, double alarm_level);
 

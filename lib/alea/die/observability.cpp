@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 
 namespace alea {
 namespace {
@@ -33,22 +34,6 @@ class Namer {
   std::vector<std::string> names_;
 };
 
-/// Derivative of the angle between two free facets.
-Eigen::RowVectorXd angle_by_unknowns(const AdjustmentLayout& layout,
-                                     const std::array<DepartedFacet, 6>& facets, int first,
-                                     int second) {
-  Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(layout.size);
-  for (const auto& [turned, other] : {std::pair{first, second}, std::pair{second, first}}) {
-    const int column = layout.facet[turned - 1];
-    if (column < 0) continue;
-    const DepartedFacet& facet = facets[turned - 1];
-    Eigen::RowVector3d by_abc = Eigen::RowVector3d::Zero();
-    by_abc.head<2>() = facets[other - 1].fit.plane.normal.transpose() * facet.fit.tangent;
-    row.segment<3>(column) = by_abc * facet.by_departure;
-  }
-  return row;
-}
-
 }  // namespace
 
 Eigen::RowVectorXd length_by_unknowns(const AdjustmentLayout& layout, int axis) {
@@ -56,6 +41,24 @@ Eigen::RowVectorXd length_by_unknowns(const AdjustmentLayout& layout, int axis) 
   const int near = layout.facet[axis], far = layout.facet[opposite_pips(axis + 1) - 1];
   if (near >= 0 && far >= 0) row[near + 2] = row[far + 2] = 1;
   return row;
+}
+
+Eigen::RowVectorXd angle_by_unknowns(const AdjustmentLayout& layout,
+                                     const std::array<DepartedFacet, 6>& facets, int first_pips,
+                                     int second_pips) {
+  Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(layout.size);
+  for (const auto& [turned, other] :
+       {std::pair{first_pips, second_pips}, std::pair{second_pips, first_pips}}) {
+    const int column = layout.facet[turned - 1];
+    if (column < 0) continue;
+    const DepartedFacet& facet = facets[turned - 1];
+    Eigen::RowVector3d by_abc = Eigen::RowVector3d::Zero();
+    by_abc.head<2>() = facets[other - 1].fit.plane.normal.transpose() * facet.fit.tangent;
+    row.segment<3>(column) = by_abc * facet.by_departure;
+  }
+  const double cosine =
+      facets[first_pips - 1].fit.plane.normal.dot(facets[second_pips - 1].fit.plane.normal);
+  return row / std::sqrt(1 - cosine * cosine);
 }
 
 std::vector<std::string> name_open_directions(const AdjustmentProblem& problem,

@@ -18,4 +18,9 @@ std::vector<std::string> name_open_directions(const AdjustmentProblem& problem,
 /// unknowns; a zero row where a facet is not seen or both are exact.
 Eigen::RowVectorXd length_by_unknowns(const AdjustmentLayout& layout, int axis);
 
+/// Derivative of the angle between the normals of two facets, to the sign; zero for exact facets.
+Eigen::RowVectorXd angle_by_unknowns(const AdjustmentLayout& layout,
+                                     const std::array<DepartedFacet, 6>& facets, int first_pips,
+                                     int second_pips);
+
 }  // namespace alea

@@ -132,14 +132,15 @@ Result<DieTransform> calibrate_linearly(const DiePair& pair, const std::vector<C
 
 std::vector<CheckPlaneRole> plane_roles(const std::vector<CommonPlane>& planes,
                                         const DieRegistrationOptions& options) {
-  const bool circular = options.method != DieMethod::closed_form;
-  const bool calibrates = (options.calibrate && !circular) || options.refine != Refinement::none;
+  const bool for_lengths =
+      (options.calibrate || options.join_planes) && !is_published(options.method);
+  const bool uses_planes = for_lengths || options.refine != Refinement::none;
   std::vector<CheckPlaneRole> roles(planes.size(), CheckPlaneRole::check);
   if (!options.check_plane_centroids_m.empty()) {
     const auto named = named_check_planes(planes, options.check_plane_centroids_m);
-    return calibrates ? named : roles;
+    return uses_planes ? named : roles;
   }
-  if (!calibrates) return roles;
+  if (!uses_planes) return roles;
   for (std::size_t rank = 1; rank <= planes.size(); rank += 2)
     roles[rank - 1] = CheckPlaneRole::calibration;
   return roles;
@@ -151,9 +152,9 @@ Result<DieTransform> calibrate_die(const Cloud& master, const Cloud& slave, cons
                                    const DieRegistrationOptions& options) {
   if (pair.transform.lengths_m.size() == 0)
     return pair.transform;  // the transform rests on no length
-  return options.method == DieMethod::closed_form
-             ? calibrate_linearly(pair, planes, roles, options)
-             : calibrate_like_the_paper(master, slave, pair, planes, options);
+  return is_published(options.method)
+             ? calibrate_like_the_paper(master, slave, pair, planes, options)
+             : calibrate_linearly(pair, planes, roles, options);
 }
 
 }  // namespace alea

@@ -30,6 +30,7 @@ DieReport die_report(const DiePair& pair, const DieTransform& transform, bool ca
   report.calibrated = calibrated;
   for (const MeasuredEdge& edge : measured_edges(pair.master, pair.slave))
     report.edges_m[edge.name] = edge.length_m;
+  for (const auto& [name, length_m] : transform.edges_m) report.edges_m[name] = length_m;
   if (transform.shared_edge) {
     double& length_m = report.edges_m[*transform.shared_edge];
     length_m = transform.edge_m.value_or(nominal_edge_m(options, length_m).value_or(length_m));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "alea/core/cloud.hpp"
@@ -24,8 +25,9 @@ struct StagedDieRegistration {
   DieStages stages;
 };
 
-/// register_die with everything that a report shows of it.
-StagedDieRegistration register_die_in_stages(const Cloud& master, const Cloud& slave,
-                                             const DieRegistrationOptions& options);
+/// register_die with everything that a report shows of it, one for each slave.
+std::vector<StagedDieRegistration> register_die_in_stages(const Cloud& master,
+                                                          std::span<const Cloud> slaves,
+                                                          const DieRegistrationOptions& options);
 
 }  // namespace alea

@@ -12,11 +12,6 @@
 namespace alea {
 namespace {
 
-HandRule hand_rule(const std::optional<Chirality>& chirality) {
-  if (!chirality) return HandRule::any;
-  return *chirality == Chirality::clockwise ? HandRule::clockwise : HandRule::counterclockwise;
-}
-
 double measured_m(const std::vector<MeasuredEdge>& edges, const std::string& name) {
   for (const MeasuredEdge& edge : edges)
     if (edge.name == name) return edge.length_m;
@@ -53,6 +48,7 @@ Result<DieTransform> by_closed_form(const DieSighting& master, const DieSighting
   if (found->shared_edge)
     out.shared_edge = edge_name(found->shared_edge->first_pips, found->shared_edge->second_pips);
   out.edge_m = found->edge_m;
+  out.edge_sd_m = closed.edge_sd_m;
   if (out.edge_m && !options.shape) {
     out.lengths_m = Eigen::VectorXd::Constant(1, *out.edge_m);
     out.directions = found->translation_by_edge;
@@ -60,6 +56,7 @@ Result<DieTransform> by_closed_form(const DieSighting& master, const DieSighting
   out.corner_master_m = found->corner_master_m;
   out.corner_slave_m = found->corner_slave_m;
   out.centre_m = found->centre_m;
+  if (options.method == DieMethod::adjustment) return out;  // which has its own test
   const double excess = found->misclosure_chi_square - found->misclosure_freedom;
   if (excess > 5 * std::sqrt(2.0 * std::max(1, found->misclosure_freedom)) + 5)
     out.warnings.push_back(fmt::format(
@@ -104,6 +101,11 @@ Result<DieTransform> by_paper(const DieSighting& master, const DieSighting& slav
 
 }  // namespace
 
+HandRule hand_rule(const std::optional<Chirality>& chirality) {
+  if (!chirality) return HandRule::any;
+  return *chirality == Chirality::clockwise ? HandRule::clockwise : HandRule::counterclockwise;
+}
+
 std::optional<double> nominal_edge_m(const DieRegistrationOptions& options, double measured_m) {
   if (options.edges_m)
     return *std::min_element(
@@ -132,9 +134,9 @@ Result<DieTransform> transform_by_die(const DieSighting& master, const DieSighti
                                       const DieRegistrationOptions& options,
                                       const std::optional<Eigen::VectorXd>& lengths_m,
                                       double length_sd_m) {
-  return options.method == DieMethod::closed_form
-             ? by_closed_form(master, slave, options, lengths_m, length_sd_m)
-             : by_paper(master, slave, options, lengths_m);
+  return is_published(options.method)
+             ? by_paper(master, slave, options, lengths_m)
+             : by_closed_form(master, slave, options, lengths_m, length_sd_m);
 }
 
 }  // namespace alea

@@ -16,10 +16,6 @@ namespace {
 constexpr double plausible_range_m =
     1000;  // an unnamed scanner stands at the origin only if that near
 
-bool is_paper(DieMethod method) {
-  return method != DieMethod::closed_form;
-}
-
 /// Where the scanner may stand when nobody said: at the origin, if that is near enough to the
 /// points.
 std::optional<Eigen::Vector3d> assumed_position(const Cloud& cloud) {
@@ -38,9 +34,9 @@ DieFinderOptions finder_options(const DieRegistrationOptions& options,
   out.near_m = near_m;
   out.facets.fit.noise = options.noise;
   out.facets.fit.scanner_position = position;
-  const bool orthogonal = is_paper(options.method) || !position;
+  const bool orthogonal = is_published(options.method) || !position;
   out.facets.fit.method = orthogonal ? FitMethod::orthogonal : FitMethod::along_ray;
-  if (is_paper(options.method)) out.facets.trim_m = 0.0;
+  if (is_published(options.method)) out.facets.trim_m = 0.0;
   return out;
 }
 
@@ -75,7 +71,7 @@ Result<PipReading> read_facets(const Cloud& cloud, const FacetFits& facets,
   const std::array<std::span<const std::uint32_t>, 3> indices{facets.indices[0], facets.indices[1],
                                                               facets.indices[2]};
   const auto images = facet_images(cloud, indices, planes, corner, facets.edges_m);
-  if (is_paper(options.method)) return read_by_counting(images, corner.orientation, options);
+  if (is_published(options.method)) return read_by_counting(images, corner.orientation, options);
   PipReaderOptions reader;
   reader.chirality = options.chirality;
   return read_pips(images, corner.orientation, reader);
@@ -124,7 +120,7 @@ void read_candidates(const Cloud& cloud, const FacetFitOptions& fit,
       if (!scan.refusal) scan.refusal = reading.refusal();
       continue;
     }
-    const FacetFits facets = is_paper(options.method)
+    const FacetFits facets = is_published(options.method)
                                  ? candidate.facets
                                  : without_pips(cloud, candidate.facets, *reading, fit);
     scan.dice.push_back(sighting(candidate, facets, *reading));
@@ -144,7 +140,7 @@ void find_and_read(const Cloud& cloud, const DieFinderOptions& finder,
                    const DieRegistrationOptions& options, ScanSighting& scan) {
   Stopwatch watch;
   scan.refusal.reset();
-  DecidedDice decided = is_paper(options.method)
+  DecidedDice decided = is_published(options.method)
                             ? found_dice(cloud, std::move(scan.planes), finder)
                             : decide_dice(cloud, std::move(scan.planes), finder,
                                           PlaneDetectionOptions{}.tolerance_m, options.seed);

@@ -2,15 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "alea/cloud/canonical_order.hpp"
 #include "alea/core/error.hpp"
 #include "alea/core/parallel.hpp"
-#include "alea/pipeline/check_plane_roles.hpp"
-#include "alea/pipeline/die_calibration.hpp"
-#include "alea/pipeline/die_pair.hpp"
-#include "alea/pipeline/die_report.hpp"
+#include "alea/pipeline/die_joint.hpp"
 #include "alea/pipeline/die_stages.hpp"
-#include "alea/pipeline/observe_die.hpp"
+#include "alea/pipeline/slave_run.hpp"
 #include "alea/pipeline/stopwatch.hpp"
 
 namespace alea {
@@ -22,89 +18,61 @@ void require_intensity(const Cloud& cloud, const char* scan) {
         "{}: no intensity, so the pips cannot be read; give a scan with intensity", scan));
 }
 
-/// Why there is no die in one of the scans. A die of the other hand in one scan only is a mirrored
-/// scan.
-std::optional<Refusal> sighting_refusal(const ScanSighting& master, const ScanSighting& slave) {
-  const auto wrong_hand = [](const ScanSighting& scan) {
-    return scan.refusal && scan.refusal->code == RefusalCode::chirality;
-  };
-  if (wrong_hand(master) != wrong_hand(slave) && (!master.refusal || !slave.refusal))
-    return Refusal{RefusalCode::mirrored,
-                   "the die is of the other hand in one of the scans; is that scan mirrored?"};
-  if (master.refusal) return Refusal{master.refusal->code, "master: " + master.refusal->message};
-  if (slave.refusal) return Refusal{slave.refusal->code, "slave: " + slave.refusal->message};
-  return std::nullopt;
-}
-
-void add_sighting_notes(const ScanSighting& master, const ScanSighting& slave, Registration& out) {
-  for (const auto& [scan, name] : {std::pair(&master, "master"), std::pair(&slave, "slave")})
-    if (!scan->scanner_position_known)
-      out.warnings.push_back(fmt::format(
-          "scanner_position_unknown: {}: facets were fitted orthogonally; give --{}-origin "
-          "X,Y,Z for fits along the ray",
-          name, name));
-  out.timing_s.emplace_back("planes", std::max(master.planes_s, slave.planes_s));
-  out.timing_s.emplace_back("facets", std::max(master.facets_s, slave.facets_s));
-  out.timing_s.emplace_back("pips", std::max(master.pips_s, slave.pips_s));
-}
-
-/// The fine registration that was asked for, on the calibration planes; a warning where they cannot
-/// carry one.
-void refine(const DieRegistrationOptions& options, const DieStages& stages,
-            const std::vector<CheckPlaneRole>& roles, const Eigen::Vector3d& about_m,
-            Registration& out) {
-  if (options.refine == Refinement::none) return;
-  const std::vector<CommonPlane> calibration =
-      planes_with_role(stages.planes, roles, CheckPlaneRole::calibration);
-  const Result<RefinedTransform> refined = refine_registration(
-      options.refine, stages.master, stages.slave, calibration, *out.master_from_slave, about_m);
-  if (!refined) {
-    out.warnings.push_back("not_refined: " + refined.refusal().message);
-    return;
-  }
-  out.master_from_slave = refined->master_from_slave;
-  if (out.covariance) out.covariance = moved_to(refined->covariance, out.covariance->about_m);
-  out.refinement = refined->report;
-}
-
-/// From the die that both scans mean to the transform and its check; empty, or why it is refused.
-std::optional<Refusal> register_pair(const DieRegistrationOptions& options, DieStages& stages,
-                                     Registration& out) {
+/// One slave before the scans are adjusted together.
+void run_pair(const std::vector<Observed>& observed, std::size_t slave,
+              const DieRegistrationOptions& options, SlaveRun& run, Registration& out) {
+  add_sighting_notes(observed[0].sighting, observed[slave].sighting, out);
+  run.refusal = sighting_refusal(observed[0].sighting, observed[slave].sighting);
+  if (run.refusal) return;
   Stopwatch watch;
-  const Cloud &master = stages.master, &slave = stages.slave;
-  Result<DiePair> chosen =
-      choose_die_pair(master, stages.of_master, slave, stages.of_slave, options);
-  if (!chosen) return chosen.refusal();
-  const DiePair& pair = stages.pair.emplace(*std::move(chosen));
+  choose_pair(observed[0], observed[slave], observed.size() > 2, options, run);
   out.timing_s.emplace_back("transform", watch.lap_s());
+}
 
-  const std::vector<CommonPlane>& planes = stages.planes = find_common_planes(
-      master, scene_planes(stages.of_master.planes, pair.master), slave,
-      scene_planes(stages.of_slave.planes, pair.slave), pair.transform.master_from_slave);
-  const std::vector<CheckPlaneRole> roles = plane_roles(planes, options);
-  const Result<DieTransform> transform =
-      options.calibrate ? calibrate_die(master, slave, pair, planes, roles, options)
-                        : Result(pair.transform);
-  if (!transform) return transform.refusal();
+void run_calibration(const std::vector<Observed>& observed, std::size_t slave,
+                     const DieRegistrationOptions& options, SlaveRun& run, Registration& out) {
+  if (!run.pair || run.tied_by_others) return;
+  Stopwatch watch;
+  find_planes(observed[0], observed[slave], options, run);
+  if (options.calibrate) calibrate(observed[0], observed[slave], options, run);
   out.timing_s.emplace_back("calibration", watch.lap_s());
+}
 
-  out.master_from_slave = transform->master_from_slave;
-  out.covariance = transform->covariance;
-  const bool calibrated = options.calibrate && transform->lengths_m.size() > 0;
-  out.die = die_report(pair, *transform, calibrated, options);
-  out.ambiguity = {std::max(pair.master.reading.alternatives, pair.slave.reading.alternatives),
-                   std::min(pair.master.reading.margin, pair.slave.reading.margin)};
-  out.warnings.insert(out.warnings.end(), transform->warnings.begin(), transform->warnings.end());
-  for (std::string& warning : size_warnings(pair, options))
-    out.warnings.push_back(std::move(warning));
-  refine(options, stages, roles, transform->centre_m, out);
-  out.check_planes.resize(planes.size());
-  parallel_chunks(planes.size(), 1, [&](std::size_t i, std::size_t) {
-    out.check_planes[i] = evaluate_check_plane(master, slave, planes[i], *out.master_from_slave);
-    out.check_planes[i].role = roles[i];
+/// What `register_die` found of every slave.
+struct AllRuns {
+  std::vector<Observed> observed;
+  std::vector<SlaveRun> runs;
+  std::vector<Registration> results;
+};
+
+AllRuns register_all(const Cloud& master, std::span<const Cloud> slaves,
+                     const DieRegistrationOptions& options) {
+  require_intensity(master, "master");
+  for (const Cloud& slave : slaves) require_intensity(slave, "slave");
+  Stopwatch total, watch;
+  AllRuns all{observe_all(master, slaves, options), std::vector<SlaveRun>(slaves.size()),
+              std::vector<Registration>(slaves.size())};
+  const auto each = [&](auto stage) {
+    parallel_chunks(slaves.size(), 1, [&](std::size_t r, std::size_t) {
+      stage(all.observed, r + 1, options, all.runs[r], all.results[r]);
+    });
+  };
+  each(run_pair);
+  const bool together = options.method == DieMethod::adjustment;
+  if (together) agree_on_one_die(all.observed, options, all.runs);
+  each(run_calibration);
+  watch.lap_s();
+  if (together) adjust_together(all.runs, options);
+  const double adjustment_s = watch.lap_s();
+  each([&](const auto& observed, std::size_t slave, const auto&, SlaveRun& run, Registration& out) {
+    out.method = to_string(options.method);
+    if (together) out.timing_s.emplace_back("adjustment", adjustment_s);
+    out.refusal = run.refusal;
+    if (!run.refusal) conclude(observed[0], observed[slave], options, run, out);
   });
-  out.timing_s.emplace_back("evaluation", watch.lap_s());
-  return std::nullopt;
+  const double total_s = total.lap_s();
+  for (Registration& out : all.results) out.timing_s.emplace_back("total", total_s);
+  return all;
 }
 
 }  // namespace
@@ -117,38 +85,42 @@ const char* to_string(DieMethod method) {
       return "paper_literal";
     case DieMethod::closed_form:
       return "closed_form";
+    case DieMethod::adjustment:
+      return "adjustment";
   }
   return "unknown";
 }
 
-StagedDieRegistration register_die_in_stages(const Cloud& master_scan, const Cloud& slave_scan,
-                                             const DieRegistrationOptions& options) {
-  require_intensity(master_scan, "master");
-  require_intensity(slave_scan, "slave");
-  Stopwatch total;
-  StagedDieRegistration staged;
-  Registration& out = staged.registration;
-  DieStages& stages = staged.stages;
-  out.method = to_string(options.method);
-  parallel_pair(
-      [&] {
-        stages.master = canonical_order(master_scan);
-        stages.of_master = observe_die(stages.master, options, options.near_m);
-      },
-      [&] {
-        stages.slave = canonical_order(slave_scan);
-        stages.of_slave = observe_die(stages.slave, options, std::nullopt);
-      });
-  add_sighting_notes(stages.of_master, stages.of_slave, out);
-  out.refusal = sighting_refusal(stages.of_master, stages.of_slave);
-  if (!out.refusal) out.refusal = register_pair(options, stages, out);
-  out.timing_s.emplace_back("total", total.lap_s());
+bool is_published(DieMethod method) {
+  return method == DieMethod::paper || method == DieMethod::paper_literal;
+}
+
+std::vector<StagedDieRegistration> register_die_in_stages(const Cloud& master,
+                                                          std::span<const Cloud> slaves,
+                                                          const DieRegistrationOptions& options) {
+  AllRuns all = register_all(master, slaves, options);
+  std::vector<StagedDieRegistration> staged(slaves.size());
+  for (std::size_t r = 0; r < slaves.size(); ++r) {
+    DieStages& stages = staged[r].stages;
+    stages.master = all.observed[0].cloud;
+    stages.of_master = all.observed[0].sighting;
+    stages.slave = std::move(all.observed[r + 1].cloud);
+    stages.of_slave = std::move(all.observed[r + 1].sighting);
+    stages.pair = std::move(all.runs[r].pair);
+    stages.planes = std::move(all.runs[r].planes);
+    staged[r].registration = std::move(all.results[r]);
+  }
   return staged;
+}
+
+std::vector<Registration> register_die(const Cloud& master, std::span<const Cloud> slaves,
+                                       const DieRegistrationOptions& options) {
+  return register_all(master, slaves, options).results;
 }
 
 Registration register_die(const Cloud& master, const Cloud& slave,
                           const DieRegistrationOptions& options) {
-  return register_die_in_stages(master, slave, options).registration;
+  return register_die(master, std::span(&slave, 1), options).front();
 }
 
 }  // namespace alea

@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "alea/core/cloud.hpp"
 #include "alea/core/noise_model.hpp"
 #include "alea/die/die_shape.hpp"
+#include "alea/die/shape_prior.hpp"
 #include "alea/pipeline/refinement.hpp"
 #include "alea/pipeline/registration.hpp"
 #include "alea/plane/plane_detector.hpp"
@@ -20,12 +22,16 @@ enum class DieMethod {
   paper,          ///< the published chain with its printed errors corrected
   paper_literal,  ///< the published chain with its equations as printed
   closed_form,    ///< shared edge and shared facets, along-ray fits
+  adjustment,     ///< all scans together in one least squares, started by the closed form
 };
 
 const char* to_string(DieMethod method);
 
+/// Whether it is one of the published chains.
+bool is_published(DieMethod method);
+
 struct DieRegistrationOptions {
-  DieMethod method = DieMethod::closed_form;
+  DieMethod method = DieMethod::adjustment;
   PlaneDetector planes = PlaneDetector::cells;
   /// Instead of `planes`: somebody else's detector. Runs for both scans at the same time.
   std::function<std::vector<PlaneRegion>(const Cloud&)> find_planes;
@@ -35,7 +41,16 @@ struct DieRegistrationOptions {
   std::optional<double>
       edge_sd_m;  ///< standard deviation of edge_m; without it edge_m is taken as exact
   std::optional<DieShape> shape;  ///< a calibrated shape
-  bool calibrate = false;         ///< estimate the length on planes that both scans see
+  /// Of its departures (see ShapePrior); without it the shape is taken as exact. Used by the
+  /// adjustment.
+  std::optional<ShapeMatrix> shape_covariance;
+  /// Levelled scanners: standard deviation of their z axes from the vertical (rad). Used by the
+  /// adjustment.
+  std::optional<double> level_sd_rad;
+  /// Planes that both scans see (those that would calibrate) take part in the adjustment as
+  /// observations of the poses.
+  bool join_planes = false;
+  bool calibrate = false;  ///< estimate the length on planes that both scans see
   std::optional<Chirality> chirality =
       Chirality::clockwise;               ///< empty: whichever both scans agree on
   std::optional<double> tilt_prior_rad;   ///< standard deviation of the facets' tilts
@@ -54,5 +69,11 @@ struct DieRegistrationOptions {
 /// result. Method: Chan et al. 2023 (doi 10.3390/app13031306) and lib/alea/die/README.md.
 Registration register_die(const Cloud& master, const Cloud& slave,
                           const DieRegistrationOptions& options);
+
+/// The same for any number of slaves of one master, one result each. The adjustment takes all scans
+/// of the die together, so that a slave which shares too little with the master is tied by the
+/// others.
+std::vector<Registration> register_die(const Cloud& master, std::span<const Cloud> slaves,
+                                       const DieRegistrationOptions& options);
 
 }  // namespace alea

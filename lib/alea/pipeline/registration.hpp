@@ -9,6 +9,7 @@
 
 #include "alea/core/refusal.hpp"
 #include "alea/core/rigid_transform.hpp"
+#include "alea/die/adjustment_quality.hpp"
 #include "alea/evaluate/check_planes.hpp"
 
 namespace alea {
@@ -54,6 +55,36 @@ struct RefinementReport {
   Eigen::Vector3d about_m = Eigen::Vector3d::Zero();        ///< the die's centre, master frame
 };
 
+/// What the adjustment says about itself. With several slaves it is one adjustment of all scans.
+struct AdjustmentReport {
+  std::size_t scans = 2;  ///< that took part
+  double chi_square = 0;
+  int freedom = 0;
+  double p_value = 1;
+  double covariance_factor = 1;   ///< the covariance is already multiplied by it
+  int defect = 0;                 ///< directions that the scans leave open
+  std::vector<std::string> open;  ///< the same in words
+  std::vector<VarianceComponent> components;
+  std::vector<FacetTest> tests;  ///< of the facets
+  int iterations = 0;
+};
+
+/// A point whose coordinates in the site's system are given.
+struct ControlResidual {
+  std::string name;
+  Eigen::Vector3d site_m = Eigen::Vector3d::Zero();      ///< as given
+  Eigen::Vector3d master_m = Eigen::Vector3d::Zero();    ///< as measured, master frame
+  Eigen::Vector3d residual_m = Eigen::Vector3d::Zero();  ///< transformed minus given, site system
+};
+
+/// The master frame in the site's system.
+struct SiteTie {
+  RigidTransform site_from_master;
+  TransformCovariance covariance;  ///< left perturbation in the site's system
+  std::vector<ControlResidual> points;
+  double rmse_m = 0;  ///< of the residuals' lengths
+};
+
 /// The result of any registration of two scans.
 struct Registration {
   std::string method;
@@ -64,6 +95,8 @@ struct Registration {
   std::optional<DieReport> die;
   std::optional<AmbiguityReport> ambiguity;
   std::optional<RefinementReport> refinement;  ///< where it was asked for and possible
+  std::optional<AdjustmentReport> adjustment;
+  std::optional<SiteTie> site;
   std::vector<CheckPlane> check_planes;
   std::vector<std::pair<std::string, double>> timing_s;  ///< stages in order, "total" last
 };
