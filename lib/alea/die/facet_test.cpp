@@ -14,8 +14,9 @@ namespace {
 /// A direction of a facet that the others check by less than this share of its own variance is not
 /// tested: its residual would be the rounding of the rest.
 constexpr double least_redundancy = 1e-6;
-/// Facets whose statistics differ by less cannot be told apart: a log-likelihood of 6.
-constexpr double same_statistic = 12;
+/// Facets whose statistics differ by less cannot be told apart: a log-likelihood of 6, or what the
+/// linearisation leaves out at a gross error (2 deg of tilt: 3 % of the statistic).
+constexpr double same_statistic = 12, same_share = 0.05;
 
 FacetTest test_facet(const AdjustmentObservation& o, const Eigen::MatrixXd& covariance) {
   FacetTest test;
@@ -74,8 +75,9 @@ std::vector<FacetTest> test_facets(const LinearisedAdjustment& linearised,
   // One facet that does not belong shows in its neighbours too: only the strangest is
   // suspect, and what is not clearly less strange.
   for (FacetTest& test : tests)
-    test.suspect = test.freedom > 0 && test.p_value < alarm_level / tested &&
-                   strangeness(test) >= strangest - same_statistic;
+    test.suspect =
+        test.freedom > 0 && test.p_value < alarm_level / tested &&
+        strangeness(test) >= strangest - std::max(same_statistic, same_share * strangest);
   return tests;
 }
 
