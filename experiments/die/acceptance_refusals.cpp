@@ -43,6 +43,13 @@ Interval wilson(double k, double n) {
   return wilson_interval(k / n, n, 1.96);
 }
 
+void report_codes(const std::vector<std::string>& codes, const Report& report) {
+  std::map<std::string, int> counts;
+  for (const std::string& code : codes) ++counts[code.empty() ? "registered" : code];
+  for (const auto& [code, count] : counts)
+    report({fmt::format("  {}", code), 1.0 * count, {}, {}, codes.size(), "", Judgement::shown});
+}
+
 }  // namespace
 
 void run_die_refusals(const Options& options, const Report& report) {
@@ -62,10 +69,7 @@ void run_die_refusals(const Options& options, const Report& report) {
             n,
             "",
             Judgement::point});
-    std::map<std::string, int> counts;
-    for (const std::string& code : codes) ++counts[code.empty() ? "registered" : code];
-    for (const auto& [code, count] : counts)
-      report({fmt::format("  {}", code), 1.0 * count, {}, {}, n, "", Judgement::shown});
+    report_codes(codes, report);
   }
   report({"all scenes without a valid die: transforms given",
           transforms,
@@ -79,6 +83,7 @@ void run_die_refusals(const Options& options, const Report& report) {
   const auto registered = static_cast<double>(std::count(codes.begin(), codes.end(), ""));
   report({"control, the same scenes with a valid die: share registered", registered / controls,
           wilson(registered, 1.0 * controls), at_least(0.95), controls, "", Judgement::point});
+  report_codes(codes, report);
 }
 
 }  // namespace alea::acceptance

@@ -11,9 +11,11 @@
 #include "alea/core/seed.hpp"
 #include "alea/die/adjustment.hpp"
 #include "alea/die/ideal_observation.hpp"
+#include "alea/pipeline/die_joint.hpp"
 #include "experiments/die/acceptance.hpp"
 #include "experiments/die/efficiency_trial.hpp"
 #include "experiments/engine/sample_mean.hpp"
+#include "experiments/engine/wilson.hpp"
 
 namespace alea::acceptance {
 namespace {
@@ -34,10 +36,11 @@ struct Setting {
   bool shared_only;  ///< faults in facets that both scans see
 };
 
-/// A floor and two walls as both scans see them, with the standard deviations of a witness.
+/// A floor and two walls as both scans see them, with the standard deviations that a registration
+/// gives its witnesses.
 void add_witnesses(const ObservedPair& pair, RandomStream& stream,
                    std::vector<AdjustmentScan>& scans) {
-  const Eigen::Vector3d sd(7e-4, 7e-4, 2.2e-3);
+  const Eigen::Vector3d sd(witness_tilt_sd_rad, witness_tilt_sd_rad, witness_offset_sd_m);
   const Eigen::Matrix3d covariance = sd.cwiseAbs2().asDiagonal();
   int id = 0;
   for (const Eigen::Vector3d& normal :
@@ -115,6 +118,8 @@ void report_share(const Setting& setting, Fault fault, const Options& options,
                                                : "a facet 1 cm off is flagged";
   Cell cell = mean_cell(fmt::format("{}: {}", setting.name, what), hits,
                         clean ? at_most(0.01) : at_least(0.95));
+  const auto n = static_cast<double>(hits.size());
+  cell.interval = wilson_interval(cell.value, n, 1.96);
   cell.judgement = Judgement::point;  // the line states its own n
   report(cell);
 }

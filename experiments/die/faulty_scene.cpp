@@ -81,15 +81,15 @@ void furnish(Trial& trial, Scene& scene) {
 Scene build(Trial trial, std::uint32_t scan) {
   Scene scene;
   Patch floor;
-  floor.corner_m = {-5, -5, 0};
-  floor.side_u_m = {10, 0, 0}, floor.side_v_m = {0, 10, 0};
+  floor.corner_m = {-10, -10, 0};
+  floor.side_u_m = {20, 0, 0}, floor.side_v_m = {0, 20, 0};
   scene.patches.push_back(floor);
   Patch wall;
-  wall.corner_m = {-5, -1.5, 0};
-  wall.side_u_m = {0, 6, 0}, wall.side_v_m = {0, 0, 3};
+  // Behind every station: these stand at most 9 m from the die.
+  wall.corner_m = {-9.5, -1.5, 0};
+  wall.side_u_m = {0, 11, 0}, wall.side_v_m = {0, 0, 3};
   scene.patches.push_back(wall);
-  wall.corner_m = {-5, -1.5, 0};
-  wall.side_u_m = {10, 0, 0};
+  wall.side_u_m = {19, 0, 0};
   scene.patches.push_back(wall);
   if (trial.fault == Fault::furnished_room)
     furnish(trial, scene);

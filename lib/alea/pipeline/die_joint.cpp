@@ -14,9 +14,6 @@
 namespace alea {
 namespace {
 
-// What planes of the scene may differ by between scans although they are the same (warp, plaster,
-// incidence), when they stand witness against a facet.
-constexpr double witness_tilt_sd_rad = 3e-4, witness_offset_sd_m = 0.001;
 constexpr std::size_t most_witnesses = 60;  // in all: each costs three unknowns
 constexpr double deg_per_rad = 180 / std::numbers::pi;
 
