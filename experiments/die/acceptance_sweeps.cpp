@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "alea/core/parallel.hpp"
+#include "experiments/engine/build_info.hpp"
 #include "experiments/engine/sweep_acceptance.hpp"
 #include "experiments/engine/sweep_run.hpp"
 
@@ -25,7 +26,7 @@ constexpr double degree = std::numbers::pi / 180;
 SweepSpec committed(const std::string& name, std::uint64_t trials,
                     const std::vector<std::string>& estimators) {
   SweepSpec spec = experiments::load_sweep(
-      std::string(ALEA_DATA_DIR) + "/experiments/die/sweeps/" + name + ".toml", false);
+      experiments::data_dir() + "/experiments/die/sweeps/" + name + ".toml", false);
   spec.trials = trials;
   spec.estimators = estimators;
   return spec;

@@ -2,13 +2,14 @@
 
 #include <sstream>
 
+#include "experiments/engine/build_info.hpp"
 #include "experiments/engine/csv_table.hpp"
 
 namespace alea::experiments::die {
 namespace {
 
 CsvTable published(const std::string& name) {
-  return read_csv(std::string(ALEA_DATA_DIR) + "/experiments/die/published/" + name + ".csv");
+  return read_csv(data_dir() + "/experiments/die/published/" + name + ".csv");
 }
 
 std::vector<int> parse_pips(const std::string& text) {

@@ -8,4 +8,8 @@ std::string build_commit() {
   return ALEA_COMMIT;
 }
 
+std::string data_dir() {
+  return ALEA_DATA_DIR;
+}
+
 }  // namespace alea::experiments

@@ -3,10 +3,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "experiments/engine/build_info.hpp"
+
 namespace alea::experiments {
 
 std::string draw_pictures(const std::string& folder) {
-  const std::string script = std::string(ALEA_DATA_DIR) + "/scripts/plot.py";
+  const std::string script = data_dir() + "/scripts/plot.py";
   const pid_t child = ::fork();
   if (child == 0) {
     // Debian's matplotlib serves the system's own Python, which need not be the first on the PATH.

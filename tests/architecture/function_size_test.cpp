@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/paths.hpp"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -44,7 +46,8 @@ TEST(FunctionSize, CountsFromTheSignatureToTheClosingBrace) {
 
 TEST(FunctionSize, NoFunctionIsLongerThanSixtyLines) {
   for (const std::string top : {"lib/alea", "experiments", "tests"}) {
-    for (const auto& entry : fs::recursive_directory_iterator(fs::path(ALEA_SOURCE_DIR) / top)) {
+    for (const auto& entry :
+         fs::recursive_directory_iterator(fs::path(alea::testing::source_dir()) / top)) {
       if (entry.path().extension() != ".cpp" && entry.path().extension() != ".hpp") continue;
       std::ifstream in(entry.path());
       for (const FunctionSpan& function : functions_of(in))

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/paths.hpp"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -29,14 +31,15 @@ std::vector<std::string> included_headers(const fs::path& file) {
 
 std::vector<fs::path> sources_below(const std::string& folder) {
   std::vector<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(fs::path(ALEA_SOURCE_DIR) / folder))
+  for (const auto& entry :
+       fs::recursive_directory_iterator(fs::path(alea::testing::source_dir()) / folder))
     if (entry.path().extension() == ".hpp" || entry.path().extension() == ".cpp")
       files.push_back(entry.path());
   return files;
 }
 
 TEST(IncludeRules, FoldersIncludeOnlyWhatLiesBelowThem) {
-  const fs::path root = fs::path(ALEA_SOURCE_DIR) / "lib/alea";
+  const fs::path root = fs::path(alea::testing::source_dir()) / "lib/alea";
   for (const fs::path& file : sources_below("lib/alea")) {
     const fs::path relative = fs::relative(file, root);
     const std::string folder = relative.begin()->string();

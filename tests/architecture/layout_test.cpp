@@ -8,11 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/paths.hpp"
+
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path root = ALEA_SOURCE_DIR;
+const fs::path root = alea::testing::source_dir();
 
 const std::set<std::string> source_folders{"lib",     "experiments", "tests", "datasets",
                                            "scripts", "paper",       ".ci"};

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "tests/support/json_schema.hpp"
+#include "tests/support/paths.hpp"
 #include "tests/support/program.hpp"
 
 namespace {
@@ -15,7 +16,7 @@ using alea::testing::run_alea;
 using alea::testing::TemporaryFolder;
 using nlohmann::json;
 
-const std::string quick = std::string(ALEA_SOURCE_DIR) + "/datasets/die/quick.toml";
+const std::string quick = alea::testing::source_dir() + "/datasets/die/quick.toml";
 
 TEST(PlanCommand, WritesMapsAndAConformingJson) {
   const TemporaryFolder folder;

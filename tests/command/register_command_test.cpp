@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "alea/io/cloud_file.hpp"
+#include "tests/support/paths.hpp"
 #include "tests/support/program.hpp"
 
 namespace alea {
@@ -26,9 +27,8 @@ class RegisterCommand : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder();
-    const ProgramRun run =
-        run_alea({"simulate", std::string(ALEA_SOURCE_DIR) + "/datasets/die/quick.toml", "--out",
-                  folder_->path().string(), "--quiet"});
+    const ProgramRun run = run_alea({"simulate", testing::source_dir() + "/datasets/die/quick.toml",
+                                     "--out", folder_->path().string(), "--quiet"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
   }
   static void TearDownTestSuite() { delete folder_; }

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "tests/support/json_schema.hpp"
+#include "tests/support/paths.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/shell.hpp"
 
@@ -121,7 +122,7 @@ TEST_F(SweepCommand, AFullDiskLosesNothing) {
   std::ofstream(sweep_) << std::string(small_sweep)
                                .replace(std::string(small_sweep).find("trials = 4"), 10,
                                         "trials = 300");
-  const std::string command = std::string(ALEA_PROGRAM) + " sweep " + sweep_ + " --out " +
+  const std::string command = testing::program_path() + " sweep " + sweep_ + " --out " +
                               folder_.file("full") + " --quiet --resume";
   const ShellRun full = run_shell("ulimit -f 60; " + command);
   EXPECT_EQ(full.exit_code, 3) << full.output;
@@ -146,7 +147,7 @@ TEST_F(SweepCommand, ReportsADamagedStore) {
 /// The blocks of the engine's page between ```sh and ```.
 std::vector<std::string> questions_of_the_page() {
   const std::string page =
-      read_text(fs::path(ALEA_SOURCE_DIR) / "experiments" / "engine" / "README.md");
+      read_text(fs::path(testing::source_dir()) / "experiments" / "engine" / "README.md");
   std::vector<std::string> blocks;
   for (std::size_t at = page.find("```sh\n"); at != std::string::npos;
        at = page.find("```sh\n", at + 1)) {
@@ -158,7 +159,7 @@ std::vector<std::string> questions_of_the_page() {
 
 TEST_F(SweepCommand, ThePageOfTheEngineAnswersItsThreeQuestions) {
   const ProgramRun made =
-      run_alea({"sweep", std::string(ALEA_SOURCE_DIR) + "/experiments/die/sweeps/range_noise.toml",
+      run_alea({"sweep", testing::source_dir() + "/experiments/die/sweeps/range_noise.toml",
                 "--smoke", "--quiet", "--out", folder_.file("noise")});
   ASSERT_EQ(made.exit_code, 0) << made.err;
   const std::vector<std::string> questions = questions_of_the_page();

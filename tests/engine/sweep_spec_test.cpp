@@ -7,6 +7,7 @@
 
 #include "alea/core/error.hpp"
 #include "tests/engine/sweep_files.hpp"
+#include "tests/support/paths.hpp"
 
 namespace alea::experiments {
 namespace {
@@ -85,7 +86,7 @@ TEST(SweepSpec, SaysWhereAFileIsWrong) {
 TEST(SweepSpec, EveryCommittedSweepLoadsInBothSizes) {
   std::size_t count = 0;
   for (const auto& entry :
-       std::filesystem::recursive_directory_iterator(std::string(ALEA_SOURCE_DIR) + "/experiments"))
+       std::filesystem::recursive_directory_iterator(alea::testing::source_dir() + "/experiments"))
     if (entry.path().extension() == ".toml") {
       ++count;
       const SweepSpec full = load_sweep(entry.path(), false);

@@ -13,6 +13,7 @@
 #include "alea/evaluate/plan_check.hpp"
 #include "alea/evaluate/plan_file.hpp"
 #include "alea/simulate/scene_file.hpp"
+#include "tests/support/paths.hpp"
 #include "tests/support/program.hpp"
 
 namespace alea {
@@ -156,7 +157,7 @@ TEST(ErrorMap, GrowsFromTheDieOutwards) {
 }
 
 TEST(DiePositions, FreePlacesStandClearAndTheBestIsNotWorseThanThePresent) {
-  const Scene scene = load_scene(std::string(ALEA_SOURCE_DIR) + "/datasets/die/site.toml");
+  const Scene scene = load_scene(testing::source_dir() + "/datasets/die/site.toml");
   const MapArea area = area_of(scene);
   const auto places = free_floor_positions(scene, area, 2);
   ASSERT_GT(places.size(), 10u);

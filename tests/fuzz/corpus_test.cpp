@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "tests/fuzz/fuzz_one.hpp"
+#include "tests/support/paths.hpp"
 
 namespace alea {
 namespace {
@@ -17,7 +18,7 @@ std::string contents(const fs::path& path) {
   return out.str();
 }
 
-const fs::path corpus = fs::path(ALEA_SOURCE_DIR) / "tests/fuzz/corpus";
+const fs::path corpus = fs::path(testing::source_dir()) / "tests/fuzz/corpus";
 
 TEST(FuzzCorpus, EverySeedAndEveryFindingIsReadOrRefused) {
   std::size_t files = 0;

@@ -15,6 +15,7 @@
 
 #include "alea/io/e57_pages.hpp"
 #include "tests/io/scans.hpp"
+#include "tests/support/paths.hpp"
 #include "tests/support/program.hpp"
 
 namespace alea {
@@ -27,7 +28,7 @@ struct Expectation {
 };
 
 std::vector<Expectation> expectations() {
-  std::ifstream in(std::string(ALEA_SOURCE_DIR) + "/tests/io/corpus_expectation.csv");
+  std::ifstream in(testing::source_dir() + "/tests/io/corpus_expectation.csv");
   std::vector<Expectation> out;
   std::string line;
   for (std::getline(in, line); std::getline(in, line);) {
@@ -148,6 +149,7 @@ TEST_F(Corpus, E57PointsFillTheBoundsOfTheirScans) {
 // the file.
 TEST_F(Corpus, TheProgramNeedsLittleMemoryForAnyFile) {
   const testing::TemporaryFolder scratch;
+  const std::string program = testing::program_path();
   const std::string message = scratch.file("message");
   for (const Expectation& expected : expectations()) {
     SCOPED_TRACE(expected.file);
@@ -158,7 +160,7 @@ TEST_F(Corpus, TheProgramNeedsLittleMemoryForAnyFile) {
       const int out = ::open(message.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
       ::dup2(out, STDERR_FILENO);
       ::dup2(::open("/dev/null", O_WRONLY), STDOUT_FILENO);
-      ::execl(ALEA_PROGRAM, "alea", "info", path.c_str(), nullptr);
+      ::execl(program.c_str(), "alea", "info", path.c_str(), nullptr);
       ::_exit(127);
     }
     int status = 0;

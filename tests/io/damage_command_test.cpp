@@ -12,6 +12,7 @@
 
 #include "alea/io/atomic_file.hpp"
 #include "tests/io/scans.hpp"
+#include "tests/support/paths.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/shell.hpp"
 
@@ -23,7 +24,7 @@ using ::testing::HasSubstr;
 using testing::run_shell;
 using testing::TemporaryFolder;
 
-const std::string program = "'" ALEA_PROGRAM "'";
+const std::string program = "'" + testing::program_path() + "'";
 
 // Runs a line of sh with a file system of its own in `mount`, which nobody else sees; empty where
 // the system does not let us have one.

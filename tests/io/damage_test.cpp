@@ -13,6 +13,7 @@
 #include "alea/io/atomic_file.hpp"
 #include "alea/io/input_file.hpp"
 #include "tests/io/scans.hpp"
+#include "tests/support/paths.hpp"
 #include "tests/support/program.hpp"
 
 namespace alea {
@@ -34,7 +35,7 @@ TEST(Damage, AFullDiskLeavesTheOldFileAndNothingElse) {
   write_cloud(folder.file("in.ply"), full_cloud(20000, false));
   for (const char* name : {"out.ply", "out.pcd", "out.xyz", "out.ptx", "out.e57"}) {
     write_file_atomically(folder.file(name), "old");
-    const std::string command = "ulimit -f 64; '" ALEA_PROGRAM "' convert '" +
+    const std::string command = "ulimit -f 64; '" + testing::program_path() + "' convert '" +
                                 folder.file("in.ply") + "' '" + folder.file(name) + "' 2> '" +
                                 folder.file("message") + "'";
     const int status = std::system(command.c_str());
@@ -78,12 +79,12 @@ TEST(Damage, AnInterruptWhileWritingLeavesTheOldFileAndNothingElse) {
   write_file_atomically(folder.file("out.xyz"), "old");
   const std::string in = folder.file("in.ply");
   const std::string out = folder.file("out.xyz");
-  std::string program = ALEA_PROGRAM;
+  std::string program = testing::program_path();
   std::string convert = "convert";
   char* arguments[] = {program.data(), convert.data(), const_cast<char*>(in.c_str()),
                        const_cast<char*>(out.c_str()), nullptr};
   pid_t child = 0;
-  ASSERT_EQ(::posix_spawn(&child, ALEA_PROGRAM, nullptr, nullptr, arguments, environ), 0);
+  ASSERT_EQ(::posix_spawn(&child, program.c_str(), nullptr, nullptr, arguments, environ), 0);
   while (!has_unfinished(folder.path()) && ::waitpid(child, nullptr, WNOHANG) == 0)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   ::kill(child, SIGINT);

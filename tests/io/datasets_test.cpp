@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/support/paths.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/shell.hpp"
 
@@ -15,7 +16,7 @@ using ::testing::HasSubstr;
 using testing::run_shell;
 using testing::TemporaryFolder;
 
-const std::string script = "'" ALEA_SOURCE_DIR "/scripts/get-datasets'";
+const std::string script = "'" + testing::source_dir() + "/scripts/get-datasets'";
 
 // A data set of two files in a folder that stands for the network; the sum of the second is wrong.
 TEST(Datasets, FilesAreDownloadedAndOneWithAWrongSumIsNotKept) {

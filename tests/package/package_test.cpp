@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "tests/support/paths.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/shell.hpp"
 
@@ -12,8 +13,9 @@ using alea::testing::ShellRun;
 
 // Installs this build once and builds a program of ten lines against what was installed.
 TEST(Package, AConsumerBuildsAndRunsAgainstTheInstalledLibrary) {
-  const std::string build = std::filesystem::path(ALEA_PROGRAM).parent_path().parent_path();
-  const std::string source = std::string(ALEA_SOURCE_DIR) + "/tests/package/consumer";
+  const std::string build =
+      std::filesystem::path(alea::testing::program_path()).parent_path().parent_path();
+  const std::string source = alea::testing::source_dir() + "/tests/package/consumer";
   const alea::testing::TemporaryFolder folder;
   const std::string prefix = folder.file("prefix"), binary = folder.file("consumer");
 
@@ -32,7 +34,8 @@ TEST(Package, AConsumerBuildsAndRunsAgainstTheInstalledLibrary) {
 }
 
 TEST(Package, NoInstalledHeaderIncludesCgalOrOpencv) {
-  const std::string build = std::filesystem::path(ALEA_PROGRAM).parent_path().parent_path();
+  const std::string build =
+      std::filesystem::path(alea::testing::program_path()).parent_path().parent_path();
   const alea::testing::TemporaryFolder folder;
   const std::string prefix = folder.file("prefix");
   const ShellRun install = run_shell("cmake --install '" + build + "' --prefix '" + prefix + "'");

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/support/paths.hpp"
+
 namespace {
 
 using alea::testing::schema_violations;
@@ -54,7 +56,7 @@ TEST(JsonSchema, ReportsAKeywordThatItCannotCheck) {
 
 TEST(JsonSchema, EverySchemaFileIsReadableAndNamesItself) {
   namespace fs = std::filesystem;
-  const fs::path folder = fs::path(ALEA_SOURCE_DIR) / "experiments/command/schemas";
+  const fs::path folder = fs::path(alea::testing::source_dir()) / "experiments/command/schemas";
   for (const auto& entry : fs::directory_iterator(folder)) {
     std::ifstream file(entry.path());
     const json schema = json::parse(file);

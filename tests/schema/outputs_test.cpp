@@ -5,6 +5,7 @@
 
 #include "experiments/command/reproduction_json.hpp"
 #include "tests/support/json_schema.hpp"
+#include "tests/support/paths.hpp"
 #include "tests/support/program.hpp"
 
 namespace {
@@ -31,7 +32,7 @@ class Outputs : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder = new alea::testing::TemporaryFolder;
-    const std::string scene = std::string(ALEA_SOURCE_DIR) + "/datasets/die/quick.toml";
+    const std::string scene = alea::testing::source_dir() + "/datasets/die/quick.toml";
     const ProgramRun run = run_alea({"simulate", scene, "--out", folder->path(), "--quiet"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     truth = json::parse(std::ifstream(folder->file("truth.json")));

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "alea/io/cloud_file.hpp"
+#include "tests/support/paths.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/shell.hpp"
 
@@ -21,8 +22,8 @@ TEST(Simulate, AnInterruptLeavesNoHalfWrittenFile) {
                "azimuth_deg = [-20, 20]\nelevation_deg = [-20, 20]\nstep_mrad = 1.5\n";
     scene.close();
     const testing::ShellRun run = testing::run_shell(
-        "timeout --preserve-status -s INT " + after_s + " " + ALEA_PROGRAM + " simulate " +
-        folder.file("scene.toml") + " --quiet --out " + folder.file("out"));
+        "timeout --preserve-status -s INT " + after_s + " " + testing::program_path() +
+        " simulate " + folder.file("scene.toml") + " --quiet --out " + folder.file("out"));
     EXPECT_TRUE(run.exit_code == 130 || run.exit_code == 0) << run.exit_code << run.output;
     if (!std::filesystem::exists(folder.path() / "out")) continue;
     for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "out")) {

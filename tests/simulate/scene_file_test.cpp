@@ -8,6 +8,7 @@
 
 #include "alea/core/error.hpp"
 #include "alea/io/cloud_file.hpp"
+#include "tests/support/paths.hpp"
 #include "tests/support/program.hpp"
 
 namespace alea {
@@ -57,7 +58,7 @@ TEST(SceneFile, ErrorsNameFileLineAndExpectation) {
 
 TEST(SceneFile, EverySceneOfTheProjectLoads) {
   int scenes = 0;
-  const auto root = std::filesystem::path(ALEA_SOURCE_DIR) / "datasets";
+  const auto root = std::filesystem::path(testing::source_dir()) / "datasets";
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
     // manifest.toml lists public data sets; every other TOML is a scene.
     if (entry.path().extension() != ".toml" || entry.path().filename() == "manifest.toml") continue;

@@ -6,6 +6,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "tests/support/paths.hpp"
+
 namespace alea::testing {
 namespace {
 
@@ -129,8 +131,7 @@ std::vector<std::string> schema_violations(const json& value, const json& schema
 }
 
 json load_schema(const std::string& name) {
-  const std::string path =
-      std::string(ALEA_SOURCE_DIR) + "/experiments/command/schemas/" + name + ".json";
+  const std::string path = testing::source_dir() + "/experiments/command/schemas/" + name + ".json";
   std::ifstream file(path);
   if (!file) throw std::runtime_error("no schema " + path);
   return json::parse(file);

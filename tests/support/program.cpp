@@ -9,6 +9,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "tests/support/paths.hpp"
+
 namespace alea::testing {
 
 TemporaryFolder::TemporaryFolder() {
@@ -29,6 +31,7 @@ std::string read_text(const std::filesystem::path& path) {
 
 ProgramRun run_alea(const std::vector<std::string>& arguments) {
   const TemporaryFolder folder;
+  const std::string program = program_path();
   const std::string out = folder.file("out"), err = folder.file("err");
   const pid_t child = ::fork();
   if (child == 0) {
@@ -36,11 +39,11 @@ ProgramRun run_alea(const std::vector<std::string>& arguments) {
     const int err_file = ::open(err.c_str(), O_WRONLY | O_CREAT, 0600);
     ::dup2(out_file, STDOUT_FILENO);
     ::dup2(err_file, STDERR_FILENO);
-    std::vector<char*> argv{const_cast<char*>(ALEA_PROGRAM)};
+    std::vector<char*> argv{const_cast<char*>(program.c_str())};
     for (const std::string& argument : arguments)
       argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
-    ::execv(ALEA_PROGRAM, argv.data());
+    ::execv(program.c_str(), argv.data());
     ::_exit(127);
   }
   int status = 0;
