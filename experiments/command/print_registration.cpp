@@ -9,6 +9,7 @@ namespace alea::command {
 namespace {
 
 constexpr double deg_per_rad = 180 / std::numbers::pi;
+constexpr double shown_margin = 30;  // orientations less likely by more are in the JSON only
 
 void print_transform(const Registration& registration) {
   const RigidTransform& t = *registration.master_from_slave;
@@ -88,9 +89,29 @@ void print_check_planes(const std::vector<CheckPlane>& planes) {
                plane.tilt_rad * deg_per_rad);
 }
 
+/// What was possible beside the answer.
+void print_orientations(const AmbiguityReport& ambiguity) {
+  fmt::print("{} orientations of the die are about as likely by its pips\n",
+             ambiguity.alternatives + 1);
+  for (const OrientationReport& each : ambiguity.orientations) {
+    if (each.log_likelihood_margin > shown_margin) continue;
+    const Eigen::Vector3d angles =
+        omega_phi_kappa_rad(each.master_from_slave.rotation) * deg_per_rad;
+    fmt::print("  omega, phi, kappa {:8.1f} {:8.1f} {:8.1f} deg, log-likelihood {:.1f} lower{}\n",
+               angles.x(), angles.y(), angles.z(), each.log_likelihood_margin,
+               each.scene_points
+                   ? fmt::format(", {:.0f} points of the scene agree", *each.scene_points)
+                   : "");
+  }
+}
+
 void print_registration(const Registration& registration) {
   for (const std::string& warning : registration.warnings)
     fmt::print(stderr, "alea: warning: {}\n", warning);
+  const auto& ambiguity = registration.ambiguity;
+  if (ambiguity && (ambiguity->alternatives > 0 || ambiguity->resolved_by_scene) &&
+      !ambiguity->orientations.empty())
+    print_orientations(*ambiguity);
   if (!registration.master_from_slave) return;
   print_transform(registration);
   if (registration.die) print_die(*registration.die);

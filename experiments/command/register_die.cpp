@@ -40,7 +40,8 @@ struct DieArguments {
   bool calibrate = false;
   std::string chirality = "clockwise";
   double tilt_prior_deg = 0, level_sd_arcsec = 0;
-  bool join_planes = false;
+  bool join_planes = false, levelled = false;
+  std::string resolve = "none";
   std::string near, master_origin, slave_origin;
   std::string check_planes_file, noise_file;
   std::string report_folder;
@@ -106,6 +107,8 @@ DieRegistrationOptions registration_options(const DieArguments& arguments) {
   if (arguments.level_sd_arcsec > 0)
     options.level_sd_rad = arguments.level_sd_arcsec * std::numbers::pi / 180 / 3600;
   options.join_planes = arguments.join_planes;
+  options.levelled = arguments.levelled;
+  options.resolve_by_scene = arguments.resolve == "scene";
   options.near_m = point("--near", arguments.near);
   if (!arguments.check_planes_file.empty())
     options.check_plane_centroids_m = read_centroid_file(arguments.check_planes_file);
@@ -186,6 +189,14 @@ void add_die_options(CLI::App& app, DieArguments& a) {
                  "How 1, 2, 3 run about their corner, seen from outside")
       ->check(CLI::IsMember({"clockwise", "counterclockwise", "any"}))
       ->capture_default_str();
+  app.add_option("--resolve", a.resolve,
+                 "Where the pips leave several orientations, or there are none (a blank cube): "
+                 "none refuses, scene asks the planes of the rest of both scans")
+      ->check(CLI::IsMember({"none", "scene"}))
+      ->capture_default_str();
+  app.add_flag("--levelled", a.levelled,
+               "Both scanners stand level: only orientations that keep the vertical are possible "
+               "(4 of 24)");
   app.add_option("--near", a.near, "Where the die is, roughly, in the master frame: X,Y,Z (m)");
 }
 

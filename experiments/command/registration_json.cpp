@@ -89,6 +89,18 @@ json die_json(const DieReport& die) {
        {{"master", vector_json(die.corner_master_m)}, {"slave", vector_json(die.corner_slave_m)}}}};
 }
 
+json ambiguity_json(const AmbiguityReport& ambiguity) {
+  json orientations = json::array();
+  for (const OrientationReport& each : ambiguity.orientations)
+    orientations.push_back({{"matrix", matrix_json(each.master_from_slave.matrix())},
+                            {"log_likelihood_margin", each.log_likelihood_margin},
+                            {"scene_points", optional_json(each.scene_points)}});
+  return {{"alternatives", ambiguity.alternatives},
+          {"log_likelihood_margin", ambiguity.log_likelihood_margin},
+          {"resolved_by", ambiguity.resolved_by_scene ? "scene" : "target"},
+          {"orientations", orientations}};
+}
+
 json refinement_json(const std::optional<RefinementReport>& refinement) {
   if (!refinement) return nullptr;
   return {{"method", refinement->method},
@@ -159,10 +171,6 @@ json registration_json(const Registration& registration, std::uint64_t seed) {
   if (registration.refusal)
     refusal = {{"code", to_string(registration.refusal->code)},
                {"message", registration.refusal->message}};
-  json ambiguity = nullptr;
-  if (registration.ambiguity)
-    ambiguity = {{"alternatives", registration.ambiguity->alternatives},
-                 {"log_likelihood_margin", registration.ambiguity->log_likelihood_margin}};
   return {{"alea", version()},
           {"status", registration.refusal ? "refused" : "registered"},
           {"refusal", refusal},
@@ -174,7 +182,8 @@ json registration_json(const Registration& registration, std::uint64_t seed) {
                ? transform_json(*registration.master_from_slave, registration.covariance)
                : json(nullptr)},
           {"die", registration.die ? die_json(*registration.die) : json(nullptr)},
-          {"ambiguity", ambiguity},
+          {"ambiguity",
+           registration.ambiguity ? ambiguity_json(*registration.ambiguity) : json(nullptr)},
           {"refinement", refinement_json(registration.refinement)},
           {"adjustment",
            registration.adjustment ? adjustment_json(*registration.adjustment) : json(nullptr)},

@@ -21,6 +21,8 @@ void run_adjustment_topic(const Options& options, const Report& report);
 void run_misfit(const Options& options, const Report& report);
 /// Issue bound, line 4: the covariance of a registration by planes of the scene alone.
 void run_planes_only(const Options& options, const Report& report);
+/// Issue bound, line 5: `alea plan` against simulated registrations.
+void run_plan(const Options& options, const Report& report);
 /// Issue bound, line 7: planted wrong facets and false flags.
 void run_suspects(const Options& options, const Report& report);
 /// Issue die, line 10: registration by six spheres against its bound.

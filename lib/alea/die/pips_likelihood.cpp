@@ -74,21 +74,26 @@ std::array<FacetEvidence, 3> gather_evidence(const std::array<PipRaster, 3>& ras
   return facets;
 }
 
-/// Posterior of each facet's pips and the margin over the best rival.
+/// Posterior of each facet's pips, the margin over the best rival and the rivals by their margins.
 void compare(const PipHypothesis& best, const std::vector<PipHypothesis>& rivals,
-             double needed_margin, PipReading& reading) {
+             PipReading& reading) {
   reading.margin = std::numeric_limits<double>::infinity();
   double total = 0;
   std::array<double, 3> agreeing{};
   for (const PipHypothesis& rival : rivals) {
-    const double odds = std::exp(rival.gain - best.gain);
+    const double margin = reading.blank ? 0 : best.gain - rival.gain;
+    const double odds = std::exp(-margin);
     total += odds;
     for (std::size_t k = 0; k < 3; ++k)
       if (rival.pips[k] == best.pips[k]) agreeing[k] += odds;
+    reading.readings.push_back({rival.pips, rival.hand, margin});
     if (rival.pips == best.pips) continue;
-    reading.margin = std::min(reading.margin, best.gain - rival.gain);
-    if (best.gain - rival.gain < needed_margin) ++reading.alternatives;
+    reading.margin = std::min(reading.margin, margin);
+    if (margin < reading.needed_margin) ++reading.alternatives;
   }
+  std::stable_sort(
+      reading.readings.begin(), reading.readings.end(),
+      [](const WeighedReading& a, const WeighedReading& b) { return a.margin < b.margin; });
   for (std::size_t k = 0; k < 3; ++k) reading.probability[k] = agreeing[k] / total;
 }
 
@@ -118,7 +123,8 @@ std::vector<PipHypothesis> rivals_of(const std::vector<PipHypothesis>& hypothese
   return other_hand_wins ? of_hand(hypotheses, best.hand) : known;
 }
 
-std::optional<Refusal> refuse_reading(const PipReading& reading, double gain, double needed) {
+std::optional<Refusal> refuse_reading(const PipReading& reading, double gain,
+                                      const PipReaderOptions& options) {
   constexpr double most_unexplained = 0.4;
   bool pips = true;
   double contradiction = -gain;
@@ -126,18 +132,26 @@ std::optional<Refusal> refuse_reading(const PipReading& reading, double gain, do
     pips = pips && facet.places_wrong <= 1 && facet.unexplained <= most_unexplained;
     contradiction += *std::max_element(facet.gain.begin(), facet.gain.end());
   }
-  if (reading.alternatives > 0)
+  if (reading.alternatives > 0 && !options.keep_ambiguous)
     return Refusal{
         RefusalCode::pips_ambiguous,
         std::to_string(reading.alternatives) +
             " other readings explain the pips about as well: scan from nearer or denser"};
-  if (contradiction > 2 * needed)
+  if (contradiction > 2 * reading.needed_margin)
     return Refusal{RefusalCode::pips_ambiguous,
                    "the three facets contradict each other: no orientation of a die explains all"};
   if (!pips)
     return Refusal{RefusalCode::pips_unreadable,
                    "the marks on the facets are not pips: no die, or intensity badly disturbed"};
   return std::nullopt;
+}
+
+/// From the order of the rules back to the order given.
+void swap_last_two(PipReading& reading) {
+  std::swap(reading.pips[1], reading.pips[2]);
+  std::swap(reading.probability[1], reading.probability[2]);
+  std::swap(reading.facets[1], reading.facets[2]);
+  for (WeighedReading& other : reading.readings) std::swap(other.pips[1], other.pips[2]);
 }
 
 }  // namespace
@@ -157,25 +171,23 @@ Result<PipReading> read_pips(const std::array<FacetImageInput, 3>& images, int o
   const std::vector<PipHypothesis> hypotheses = weigh_hypotheses(lattices);
   const std::vector<PipHypothesis> rivals = rivals_of(hypotheses, options);
   const PipHypothesis& best = best_of(rivals);
-  if (best.gain < options.min_gain)
+  PipReading reading;
+  reading.blank = best.gain < options.min_gain;
+  if (reading.blank && !options.keep_ambiguous)
     return Refusal{RefusalCode::pips_unreadable,
                    "the facets carry no readable pips: a blank cube, or too few points on it"};
-  const double needed = needed_margin(best, options);
-  PipReading reading;
+  reading.needed_margin = needed_margin(best, options);
   reading.pips = best.pips;
   reading.hand = best.hand;
   reading.dark_pips = best.contrast == dark_pips;
-  compare(best, rivals, needed, reading);
+  compare(best, rivals, reading);
   const Chirality other =
       best.hand == Chirality::clockwise ? Chirality::counterclockwise : Chirality::clockwise;
   reading.hand_margin = best.gain - best_of(of_hand(hypotheses, other)).gain;
   reading.facets = gather_evidence(rasters, ordered, lattices[best.lattice], best, options);
-  if (auto refusal = refuse_reading(reading, best.gain, needed)) return *refusal;
-  if (orientation < 0) {
-    std::swap(reading.pips[1], reading.pips[2]);
-    std::swap(reading.probability[1], reading.probability[2]);
-    std::swap(reading.facets[1], reading.facets[2]);
-  }
+  if (!reading.blank)
+    if (auto refusal = refuse_reading(reading, best.gain, options)) return *refusal;
+  if (orientation < 0) swap_last_two(reading);
   return reading;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "alea/core/result.hpp"
 #include "alea/die/facet_image.hpp"
@@ -19,6 +20,16 @@ struct PipReaderOptions {
   double min_margin = 6;
   double min_margin_share = 0.05;
   double min_gain = 20;  ///< log-likelihood of the best reading over a blank die
+  /// A blank die, and pips with several readings within the margin, come back as a reading with
+  /// alternatives instead of a refusal. Marks that are not pips are refused all the same.
+  bool keep_ambiguous = false;
+};
+
+/// One of the readings considered.
+struct WeighedReading {
+  std::array<int, 3> pips{};  ///< of the facets in the order given
+  Chirality hand = Chirality::clockwise;
+  double margin = 0;  ///< log-likelihood of the best reading over this one
 };
 
 /// What one facet shows by itself.
@@ -40,11 +51,14 @@ struct PipReading {
   std::array<double, 3>
       probability{};  ///< posterior of each facet's pips, all readings equal before
   Chirality hand = Chirality::clockwise;
-  double margin = 0;       ///< log-likelihood over the runner-up among the readings considered
-  double hand_margin = 0;  ///< log-likelihood over the best reading of the other hand
-  int alternatives = 0;    ///< other readings within the required margin
-  bool dark_pips = true;   ///< false: light pips on dark facets
+  double margin = 0;         ///< log-likelihood over the runner-up among the readings considered
+  double hand_margin = 0;    ///< log-likelihood over the best reading of the other hand
+  double needed_margin = 0;  ///< a reading that is less likely by more is no alternative
+  int alternatives = 0;      ///< other readings within the required margin
+  bool blank = false;        ///< no pips at all: every reading is as likely as the others
+  bool dark_pips = true;     ///< false: light pips on dark facets
   std::array<FacetEvidence, 3> facets;
+  std::vector<WeighedReading> readings;  ///< all that were considered, the best first
 };
 
 /// Maximum-likelihood reading over the 24 orientations of each hand: blurred pips on the 3 x 3

@@ -1,8 +1,12 @@
 #include "alea/pipeline/die_pair.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
+#include <string>
 
 #include "alea/evaluate/check_planes.hpp"
 
@@ -32,8 +36,11 @@ double scene_agreement(const Cloud& master, const std::vector<PlaneRegion>& mast
   return points;
 }
 
+/// A pair of sightings in one orientation, while the scene has not decided.
 struct Scored {
   DiePair pair;
+  std::size_t orientation = 0;
+  std::optional<Refusal> refusal;  ///< the die does not determine a transform in it
   double score = 0;
 };
 
@@ -44,11 +51,85 @@ Result<DiePair> best_by_scene(std::vector<Scored> candidates) {
     if (same_transform(candidates[0].pair.transform, candidates[i].pair.transform)) continue;
     if (candidates[0].score > clear_lead * candidates[i].score) break;
     return Refusal{RefusalCode::ambiguous_target,
-                   "several dice fit in both scans and the rest of the scene does not tell which "
-                   "is which; give --near "
-                   "X,Y,Z or scan one die only"};
+                   candidates[0].pair.resolved_by_scene
+                       ? "the pips leave several orientations of the die and the rest of the scene "
+                         "does not tell which is right; scan more of the surroundings, or a die "
+                         "with readable pips"
+                       : "several dice fit in both scans and the rest of the scene does not tell "
+                         "which is which; give --near X,Y,Z or scan one die only"};
   }
-  return std::move(candidates[0].pair);
+  if (candidates[0].refusal) return *candidates[0].refusal;
+  // What the scene said of the other orientations of the chosen pair.
+  DiePair& chosen = candidates[0].pair;
+  for (const Scored& each : candidates)
+    if (each.pair.master.candidate == chosen.master.candidate &&
+        each.pair.slave.candidate == chosen.slave.candidate)
+      chosen.orientations[each.orientation].scene_points = each.score;
+  return std::move(chosen);
+}
+
+Refusal undecided(const DieSighting& master, const DieSighting& slave, std::size_t supported,
+                  bool levelled) {
+  if (supported == 0)
+    return {RefusalCode::pips_ambiguous,
+            "no orientation of the die that its pips support keeps the scanners level; leave "
+            "--levelled out"};
+  const std::string remaining =
+      fmt::format("{} orientations of the die remain{}; --resolve scene asks the rest of the scene",
+                  supported, levelled ? " for levelled scanners" : "");
+  if (master.reading.blank || slave.reading.blank)
+    return {
+        RefusalCode::pips_unreadable,
+        "the facets carry no readable pips: a blank cube, or too few points on it; " + remaining};
+  return {RefusalCode::pips_ambiguous, "several readings explain the pips about as well; " +
+                                           remaining + ", or scan from nearer or denser"};
+}
+
+/// The pair in one orientation, with the transform that the die gives or, where it gives none, the
+/// rough one of a cube.
+Scored in_orientation(const DieSighting& master, const DieSighting& slave,
+                      const std::vector<DieOrientation>& orientations, std::size_t k,
+                      const DieRegistrationOptions& options) {
+  const DieOrientation& orientation = orientations[k];
+  Scored out;
+  out.orientation = k;
+  const auto with = [](const DieSighting& sighting, const std::array<int, 3>& pips) {
+    return pips == sighting.reading.pips ? sighting : relabelled(sighting, pips);
+  };
+  out.pair.master = with(master, orientation.master_pips);
+  out.pair.slave = with(slave, orientation.slave_pips);
+  out.pair.orientations = orientations;
+  Result<DieTransform> transform = transform_by_die(out.pair.master, out.pair.slave, options);
+  if (transform) {
+    out.pair.transform = *std::move(transform);
+  } else {
+    out.refusal = transform.refusal();
+    out.pair.transform.master_from_slave = orientation.master_from_slave;
+    out.pair.transform.centre_m = master.die.facets[0].fit.centroid_m;
+  }
+  return out;
+}
+
+/// The orientations of one pair of sightings that are left: one, or several for the scene.
+Result<std::vector<Scored>> orient(const DieSighting& master, const DieSighting& slave,
+                                   const DieRegistrationOptions& options) {
+  const std::vector<DieOrientation> all = die_orientations(master, slave, options.levelled);
+  const std::size_t supported = supported_orientations(all, master, slave);
+  // Readings of different hands have no orientation in common: the hand is refused further on.
+  if (all.empty() && !options.levelled) {
+    const Result<DieTransform> transform = transform_by_die(master, slave, options);
+    if (!transform) return transform.refusal();
+    return std::vector<Scored>{{{master, slave, *transform, {}}, 0, std::nullopt, 0}};
+  }
+  if (supported == 0 || (supported > 1 && !options.resolve_by_scene))
+    return undecided(master, slave, supported, options.levelled);
+  std::vector<Scored> out;
+  for (std::size_t k = 0; k < supported; ++k) {
+    out.push_back(in_orientation(master, slave, all, k, options));
+    out.back().pair.resolved_by_scene = supported > 1;
+  }
+  if (supported == 1 && out[0].refusal) return *out[0].refusal;
+  return out;
 }
 
 }  // namespace
@@ -82,11 +163,11 @@ Result<DiePair> choose_die_pair(const Cloud& master, const ScanSighting& master_
   std::optional<Refusal> first_refusal;
   for (const DieSighting& a : master_sighting.dice) {
     for (const DieSighting& b : slave_sighting.dice) {
-      Result<DieTransform> transform = transform_by_die(a, b, options);
-      if (transform)
-        candidates.push_back({{a, b, *std::move(transform)}, 0});
+      Result<std::vector<Scored>> oriented = orient(a, b, options);
+      if (oriented)
+        std::move(oriented->begin(), oriented->end(), std::back_inserter(candidates));
       else if (!first_refusal)
-        first_refusal = transform.refusal();
+        first_refusal = oriented.refusal();
     }
   }
   if (candidates.empty()) return *first_refusal;

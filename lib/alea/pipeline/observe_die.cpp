@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include "alea/die/assembly.hpp"
 #include "alea/die/pips_chain.hpp"
@@ -64,8 +63,8 @@ Result<PipReading> read_by_counting(const std::array<FacetImageInput, 3>& images
 }
 
 Result<PipReading> read_facets(const Cloud& cloud, const FacetFits& facets,
-                               const CornerAssembly& corner,
-                               const DieRegistrationOptions& options) {
+                               const CornerAssembly& corner, const DieRegistrationOptions& options,
+                               bool keep_ambiguous) {
   const std::array<Plane, 3> planes{facets.fits[0].plane, facets.fits[1].plane,
                                     facets.fits[2].plane};
   const std::array<std::span<const std::uint32_t>, 3> indices{facets.indices[0], facets.indices[1],
@@ -74,6 +73,7 @@ Result<PipReading> read_facets(const Cloud& cloud, const FacetFits& facets,
   if (is_published(options.method)) return read_by_counting(images, corner.orientation, options);
   PipReaderOptions reader;
   reader.chirality = options.chirality;
+  reader.keep_ambiguous = keep_ambiguous;
   return read_pips(images, corner.orientation, reader);
 }
 
@@ -107,26 +107,35 @@ DieSighting sighting(const DieCandidate& candidate, const FacetFits& facets,
   return out;
 }
 
-/// Reads every candidate; keeps those whose pips can be read, else the best candidate's refusal.
-void read_candidates(const Cloud& cloud, const FacetFitOptions& fit,
-                     const DieRegistrationOptions& options, ScanSighting& scan) {
-  for (std::size_t i = 0; i < scan.candidates.size(); ++i) {
-    const DieCandidate& candidate = scan.candidates[i];
+/// Every candidate whose pips can be read, or else why those of the best cannot.
+struct ReadDice {
+  std::vector<DieSighting> dice;
+  std::optional<Refusal> refusal;
+};
+
+ReadDice read_candidates(const Cloud& cloud, const std::vector<DieCandidate>& candidates,
+                         const FacetFitOptions& fit, const DieRegistrationOptions& options,
+                         bool keep_ambiguous) {
+  ReadDice out;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const DieCandidate& candidate = candidates[i];
     const auto& fits = candidate.facets.fits;
     const auto corner = assemble_corner({fits[0].plane, fits[1].plane, fits[2].plane});
     if (!corner) continue;
-    const Result<PipReading> reading = read_facets(cloud, candidate.facets, *corner, options);
+    const Result<PipReading> reading =
+        read_facets(cloud, candidate.facets, *corner, options, keep_ambiguous);
     if (!reading) {
-      if (!scan.refusal) scan.refusal = reading.refusal();
+      if (!out.refusal) out.refusal = reading.refusal();
       continue;
     }
-    const FacetFits facets = is_published(options.method)
+    const FacetFits facets = is_published(options.method) || reading->alternatives > 0
                                  ? candidate.facets
                                  : without_pips(cloud, candidate.facets, *reading, fit);
-    scan.dice.push_back(sighting(candidate, facets, *reading));
-    scan.dice.back().candidate = i;
+    out.dice.push_back(sighting(candidate, facets, *reading));
+    out.dice.back().candidate = i;
   }
-  if (!scan.dice.empty()) scan.refusal.reset();
+  if (!out.dice.empty()) out.refusal.reset();
+  return out;
 }
 
 /// The published chain has no second look.
@@ -151,7 +160,16 @@ void find_and_read(const Cloud& cloud, const DieFinderOptions& finder,
     return;
   }
   scan.candidates = *std::move(decided.dice);
-  read_candidates(cloud, finder.facets, options, scan);
+  ReadDice read = read_candidates(cloud, scan.candidates, finder.facets, options, false);
+  scan.dice = std::move(read.dice);
+  scan.refusal = std::move(read.refusal);
+  if (scan.refusal && !is_published(options.method)) {
+    scan.ambiguous = read_candidates(cloud, scan.candidates, finder.facets, options, true).dice;
+    if ((options.resolve_by_scene || options.levelled) && !scan.ambiguous.empty()) {
+      scan.dice = scan.ambiguous;
+      scan.refusal.reset();
+    }
+  }
   scan.pips_s += watch.lap_s();
 }
 

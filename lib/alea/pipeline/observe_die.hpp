@@ -30,7 +30,9 @@ struct ScanSighting {
   std::vector<PlaneRegion> planes;
   std::vector<DieCandidate> candidates;  ///< of the right shape and size, best first
   std::vector<DieSighting> dice;         ///< with readable pips, best first
-  std::optional<Refusal> refusal;        ///< where there are none
+  /// Where there are none: those with blank or ambiguous pips.
+  std::vector<DieSighting> ambiguous;
+  std::optional<Refusal> refusal;  ///< where `dice` is empty
   bool scanner_position_known = true;
   double planes_s = 0, facets_s = 0, pips_s = 0;  ///< time taken
 };

@@ -23,9 +23,12 @@ void run_pair(const std::vector<Observed>& observed, std::size_t slave,
               const DieRegistrationOptions& options, SlaveRun& run, Registration& out) {
   add_sighting_notes(observed[0].sighting, observed[slave].sighting, out);
   run.refusal = sighting_refusal(observed[0].sighting, observed[slave].sighting);
-  if (run.refusal) return;
   Stopwatch watch;
-  choose_pair(observed[0], observed[slave], observed.size() > 2, options, run);
+  if (!run.refusal) choose_pair(observed[0], observed[slave], observed.size() > 2, options, run);
+  if (run.refusal)
+    out.ambiguity =
+        open_orientations(observed[0].sighting, observed[slave].sighting, options.levelled);
+  if (!run.pair) return;
   out.timing_s.emplace_back("transform", watch.lap_s());
 }
 

@@ -52,7 +52,11 @@ struct DieRegistrationOptions {
   bool join_planes = false;
   bool calibrate = false;  ///< estimate the length on planes that both scans see
   std::optional<Chirality> chirality =
-      Chirality::clockwise;               ///< empty: whichever both scans agree on
+      Chirality::clockwise;  ///< empty: whichever both scans agree on
+  /// Where the pips leave several orientations or are missing, the rest of the scene decides.
+  bool resolve_by_scene = false;
+  /// Both scanners are levelled: only orientations of the die that keep the vertical are possible.
+  bool levelled = false;
   std::optional<double> tilt_prior_rad;   ///< standard deviation of the facets' tilts
   std::optional<Eigen::Vector3d> near_m;  ///< where the die is, roughly, in the master frame
   std::vector<Eigen::Vector3d>

@@ -39,9 +39,18 @@ struct DieReport {
   Eigen::Vector3d corner_slave_m = Eigen::Vector3d::Zero();
 };
 
+/// One way in which the slave can lie to the master.
+struct OrientationReport {
+  RigidTransform master_from_slave;    ///< roughly, as a perfect cube would say
+  double log_likelihood_margin = 0;    ///< of the likeliest over this one, by the pips
+  std::optional<double> scene_points;  ///< on planes that both scans see, where the scene was asked
+};
+
 struct AmbiguityReport {
   int alternatives = 0;              ///< other orientations that the data support about as well
   double log_likelihood_margin = 0;  ///< of the answer over the runner-up
+  bool resolved_by_scene = false;    ///< the target left several orientations, the scene one
+  std::vector<OrientationReport> orientations;  ///< of a die, the likeliest first
 };
 
 /// What a fine registration on calibration planes changed.

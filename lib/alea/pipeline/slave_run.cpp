@@ -39,6 +39,23 @@ void refine(const Cloud& master, const Cloud& slave, const SlaveRun& run,
   out.refinement = refined->report;
 }
 
+std::vector<OrientationReport> reported(const std::vector<DieOrientation>& orientations) {
+  std::vector<OrientationReport> out;
+  for (const DieOrientation& each : orientations)
+    out.push_back({each.master_from_slave, each.margin, each.scene_points});
+  return out;
+}
+
+AmbiguityReport ambiguity_of(const DiePair& pair) {
+  return {0, std::min(pair.master.reading.margin, pair.slave.reading.margin),
+          pair.resolved_by_scene, reported(pair.orientations)};
+}
+
+const DieSighting* best_sighting(const ScanSighting& scan) {
+  if (!scan.dice.empty()) return &scan.dice[0];
+  return scan.ambiguous.empty() ? nullptr : &scan.ambiguous[0];
+}
+
 }  // namespace
 
 std::optional<Refusal> sighting_refusal(const ScanSighting& master, const ScanSighting& slave) {
@@ -51,6 +68,17 @@ std::optional<Refusal> sighting_refusal(const ScanSighting& master, const ScanSi
   if (master.refusal) return Refusal{master.refusal->code, "master: " + master.refusal->message};
   if (slave.refusal) return Refusal{slave.refusal->code, "slave: " + slave.refusal->message};
   return std::nullopt;
+}
+
+std::optional<AmbiguityReport> open_orientations(const ScanSighting& master,
+                                                 const ScanSighting& slave, bool levelled) {
+  const DieSighting *a = best_sighting(master), *b = best_sighting(slave);
+  if (a == nullptr || b == nullptr) return std::nullopt;
+  const std::vector<DieOrientation> all = die_orientations(*a, *b, levelled);
+  const std::size_t supported = supported_orientations(all, *a, *b);
+  if (supported < 2) return std::nullopt;
+  return AmbiguityReport{static_cast<int>(supported) - 1,
+                         std::min(a->reading.margin, b->reading.margin), false, reported(all)};
 }
 
 void add_sighting_notes(const ScanSighting& master, const ScanSighting& slave, Registration& out) {
@@ -139,9 +167,12 @@ void conclude(const Observed& master, const Observed& slave, const DieRegistrati
   out.adjustment = run.adjustment;
   out.die =
       die_report(pair, transform, options.calibrate && transform.lengths_m.size() > 0, options);
-  out.ambiguity = {std::max(pair.master.reading.alternatives, pair.slave.reading.alternatives),
-                   std::min(pair.master.reading.margin, pair.slave.reading.margin)};
+  out.ambiguity = ambiguity_of(pair);
   for (const std::string& warning : transform.warnings) out.warnings.push_back(warning);
+  if (pair.resolved_by_scene)
+    out.warnings.push_back(
+        "resolved_by_scene: the pips left several orientations of the die; the rest of the scene "
+        "chose one, and the pips named here are as likely as those of another orientation");
   for (std::string& warning : size_warnings(pair, options))
     out.warnings.push_back(std::move(warning));
   refine(master.cloud, slave.cloud, run, options, out);

@@ -35,6 +35,10 @@ std::vector<Observed> observe_all(const Cloud& master, std::span<const Cloud> sl
 /// scan.
 std::optional<Refusal> sighting_refusal(const ScanSighting& master, const ScanSighting& slave);
 
+/// The orientations that a refusal for want of pips leaves open; empty where there are none.
+std::optional<AmbiguityReport> open_orientations(const ScanSighting& master,
+                                                 const ScanSighting& slave, bool levelled);
+
 /// Warnings and times of both scans.
 void add_sighting_notes(const ScanSighting& master, const ScanSighting& slave, Registration& out);
 
