@@ -101,9 +101,11 @@ def is_table(path):
 
 
 def place(results, work, paper, text):
-    """The text with its tables and figures, then those that it does not place."""
-    tables = [path for path in sorted((results / paper).glob("*.csv")) if is_table(path)]
-    figures = sorted(path for path in (results / paper).glob("*.pdf"))
+    """The text with its tables and figures, then those that it does not place. A table behind a figure is not set."""
+    tables = [path for path in sorted((results / paper).glob("*.csv"))
+              if is_table(path) and not path.stem.startswith("figure")]
+    figures = sorted(path for path in (results / paper).iterdir()
+                     if path.suffix == ".pdf" or path.suffix == ".png" and not path.with_suffix(".pdf").exists())
     for table in tables:
         write_table(table, work, paper)
     out = []
@@ -114,8 +116,9 @@ def place(results, work, paper, text):
             line = f"\\input{{tables/{paper}-{name}}}"
         elif line.startswith(f"\\aleafig{{{paper}}}"):
             name, caption = line.split("{", 2)[2].split("}{", 1)
+            source = next((figure for figure in figures if figure.stem == name), results / paper / f"{name}.pdf")
             figures = [figure for figure in figures if figure.stem != name]
-            line = f"\\aleafigure{{{results}/{paper}/{name}.pdf}}{{{caption[:-1]}}}{{fig:{paper}-{name}}}"
+            line = f"\\aleafigure{{{source}}}{{{caption[:-1]}}}{{fig:{paper}-{name}}}"
         out.append(line)
     out += [f"\\input{{tables/{paper}-{table.stem}}}" for table in tables]
     out += [f"\\aleafigure{{{figure}}}{{{latex(figure.stem.replace('_', ' '))}}}{{fig:{paper}-{figure.stem}}}"
@@ -176,11 +179,37 @@ def sweep_numbers(sweeps):
     return numbers
 
 
-def die_numbers(die):
-    cells = [row["verdict"] for path in sorted(die.glob("*.csv")) if is_table(path) for row in rows_of(path)]
+def verdict_numbers(folder, prefix):
+    cells = [row["verdict"] for path in sorted(folder.glob("*.csv")) if is_table(path) for row in rows_of(path)]
     judged = [v for v in cells if v in ("agrees", "differs", "undecidable")]
-    numbers = {"DieCells": len(judged), "DieAgree": judged.count("agrees"), "DieDiffer": judged.count("differs"),
-               "DieUndecidable": judged.count("undecidable")}
+    return {f"{prefix}Cells": len(judged), f"{prefix}Agree": judged.count("agrees"),
+            f"{prefix}Differ": judged.count("differs"), f"{prefix}Undecidable": judged.count("undecidable")}
+
+
+def checkerboard_numbers(folder):
+    if not folder.is_dir():
+        return {}
+    def shares(figure, success, **wanted):
+        """Success in percent over the points of a figure with these values; shifts up to `up_to`."""
+        up_to = wanted.pop("up_to", 150)
+        return [100 * float(row[success]) for row in rows_of(folder / f"{figure}_data.csv")
+                if int(row["shift_percent"]) <= up_to and all(row[name] == value for name, value in wanted.items())]
+    percent = lambda values: f"{min(values):.0f}"
+    at = lambda shift, rotation: {"shift_percent": shift, "rotation_deg": rotation}
+    return {**verdict_numbers(folder, "Check"),
+            "CheckPairs": rows_of(folder / "figure8_data.csv")[0]["pairs"],
+            "CheckColouredNinety": percent(shares("figure8", "strict", method="coloured", **at("90", "0"))),
+            "CheckIndependentNinety": percent(shares("figure6_variants", "strict", target="independent", **at("90", "0"))),
+            "CheckPointOutline": percent(shares("figure8_variants", "strict", method="point_to_point", **at("60", "30"))),
+            "CheckWallSixty": percent(shares("figure8_variants", "symmetric", method="coloured", target="white_wall",
+                                             **at("60", "0"))),
+            "CheckPlaneFirst": percent(shares("figure6_variants", "strict", method="plane_then_coloured",
+                                              rotation_deg="30", up_to=60)),
+            "CheckLikelihoodLeast": percent(shares("figure8_variants", "symmetric", method="likelihood"))}
+
+
+def die_numbers(die):
+    numbers = verdict_numbers(die, "Die")
     errata = [row for row in rows_of(die / "errata.csv") if row["unit"] == "mm"]
     worst = max(errata, key=lambda row: float(row["ours_median"]))
     corrected = max(float(row["ours_median"]) for row in errata if "corrected" in row["row"])
@@ -204,7 +233,8 @@ def main():
         sys.exit("usage: assemble.py RESULTS WORK")
     results, work = map(pathlib.Path, sys.argv[1:])
     sweeps = results / "sweeps"
-    numbers = {**program_numbers(results), **die_numbers(results / "die"), **sweep_numbers(sweeps)}
+    numbers = {**program_numbers(results), **die_numbers(results / "die"),
+               **checkerboard_numbers(results / "checkerboard"), **sweep_numbers(sweeps)}
     (work / "numbers.tex").write_text("".join(f"\\newcommand{{\\{name}}}{{{value}}}\n" for name, value in numbers.items()))
     chapters = ""
     for paper in PAPERS:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <vector>
 
 #include "alea/checkerboard/board_finder.hpp"
@@ -135,14 +136,24 @@ Cloud large_scan(const BoardSensor& sensor, std::vector<Eigen::Vector3d>& centre
   return room;
 }
 
+/// The fastest of some runs, by the clock and by the processors' time: other programs slow the
+/// former down.
+struct Times {
+  double wall_s = 1e9, cpu_s = 1e9;
+};
+
 template <typename Run>
-double best_seconds(int runs, const Run& run) {
-  double best = 1e9;
+Times best_of(int runs, const Run& run) {
+  Times best;
   for (int k = 0; k < runs; ++k) {
     const auto start = std::chrono::steady_clock::now();
+    const std::clock_t cpu = std::clock();
     run();
-    best = std::min(
-        best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    best.cpu_s =
+        std::min(best.cpu_s, static_cast<double>(std::clock() - cpu) / double{CLOCKS_PER_SEC});
+    best.wall_s =
+        std::min(best.wall_s,
+                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
   return best;
 }
@@ -200,14 +211,16 @@ void run_board_speed(const Options& options, const Report& report) {
   BoardSensor sensor = survey_sensor();
   sensor.spacing_m = 0.15 / std::sqrt(5000.0);
   const SensorScene scene = draw_scene(sensor, SensorTarget::bare, options.seed, 1);
-  const double crop_s = best_seconds(20, [&] { (void)measure_likelihood(sensor, scene); });
-  report(cell("likelihood, one crop, fastest of 20", 1e3 * crop_s, 0, at_most(10),
+  const Times crop = best_of(20, [&] { (void)measure_likelihood(sensor, scene); });
+  report(cell("likelihood, one crop, fastest of 20", 1e3 * crop.wall_s, 0, at_most(10),
               scene.cloud.size(), "ms", Judgement::point));
+  report(cell("likelihood, one crop, processor time", 1e3 * crop.cpu_s, 0, {}, scene.cloud.size(),
+              "ms", Judgement::shown));
   std::vector<Eigen::Vector3d> centres;
   const Cloud room = large_scan(survey_sensor(), centres);
   BoardOptions board;
   std::size_t right = 0;
-  const double room_s = best_seconds(3, [&] {
+  const Times whole = best_of(3, [&] {
     right = 0;
     const auto found = find_boards(room, board);
     if (!found) return;
@@ -216,8 +229,10 @@ void run_board_speed(const Options& options, const Report& report) {
         return (m.centre_m - centre).norm() < 1e-3;
       });
   });
-  report(cell("all targets of a scan, fastest of 3", room_s, 0, at_most(3), room.size(), "s",
+  report(cell("all targets of a scan, fastest of 3", whole.wall_s, 0, at_most(3), room.size(), "s",
               Judgement::point));
+  report(cell("all targets of a scan, processor time", whole.cpu_s, 0, {}, room.size(), "s",
+              Judgement::shown));
   report(cell("targets found of 16", static_cast<double>(right), 0, at_least(16), centres.size(),
               "targets", Judgement::point));
 }

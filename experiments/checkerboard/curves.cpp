@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "alea/report/axes.hpp"
+#include "alea/report/colours.hpp"
 
 namespace alea::experiments::checkerboard {
 namespace {
@@ -34,37 +35,87 @@ CurvePoint point_of(int shift_percent, const std::vector<SyntheticOutcome>& outc
 
 constexpr double most_rmse = 1.6;  // shown
 
-void draw_success(Axes& axes, const Curve& curve, Rgb colour, double offset) {
-  for (std::size_t k = 0; k < curve.points.size(); ++k) {
-    const CurvePoint& p = curve.points[k];
+/// Places of one line and its intervals.
+struct Drawn {
+  std::vector<Eigen::Vector2d> places, low, high;
+};
+
+Drawn success_of(const Curve& curve, double offset) {
+  Drawn drawn;
+  for (const CurvePoint& p : curve.points) {
     const double x = p.shift_percent + offset;
-    axes.line({x, 100 * p.strict.low()}, {x, 100 * p.strict.high()}, colour);
-    axes.point({x, 100 * p.strict.value()}, colour, 3);
-    if (k > 0)
-      axes.line(
-          {curve.points[k - 1].shift_percent + offset, 100 * curve.points[k - 1].strict.value()},
-          {x, 100 * p.strict.value()}, colour, 2);
+    drawn.places.emplace_back(x, 100 * p.strict.value());
+    drawn.low.emplace_back(x, 100 * p.strict.low());
+    drawn.high.emplace_back(x, 100 * p.strict.high());
+  }
+  return drawn;
+}
+
+Drawn rmse_of(const Curve& curve, double offset) {
+  const auto held = [](double value) { return std::clamp(value, 0.0, most_rmse); };
+  Drawn drawn;
+  for (const CurvePoint& p : curve.points) {
+    const double x = p.shift_percent + offset;
+    drawn.places.emplace_back(x, held(p.rmse_mean));
+    drawn.low.emplace_back(x, held(p.rmse_mean - p.rmse_sd));
+    drawn.high.emplace_back(x, held(p.rmse_mean + p.rmse_sd));
+  }
+  return drawn;
+}
+
+/// All intervals, pale, below all lines.
+void draw(Axes& axes, const std::vector<Drawn>& lines) {
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const Rgb pale = colours::mixed(colours::categorical(k), colours::white, 0.6);
+    for (std::size_t i = 0; i < lines[k].places.size(); ++i)
+      axes.line(lines[k].low[i], lines[k].high[i], pale);
+  }
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    axes.polyline(lines[k].places, colours::categorical(k), 2);
+    axes.points(lines[k].places, colours::categorical(k), 3);
   }
 }
 
-void draw_rmse(Axes& axes, const Curve& curve, Rgb colour, double offset, bool numbers) {
-  const auto held = [](double value) { return std::min(value, most_rmse); };
-  for (std::size_t k = 0; k < curve.points.size(); ++k) {
-    const CurvePoint& p = curve.points[k];
-    const double x = p.shift_percent + offset;
-    axes.line({x, held(std::max(p.rmse_mean - p.rmse_sd, 0.0))}, {x, held(p.rmse_mean + p.rmse_sd)},
-              colour);
-    axes.point({x, held(p.rmse_mean)}, colour, 3);
-    if (k > 0)
-      axes.line({curve.points[k - 1].shift_percent + offset, held(curve.points[k - 1].rmse_mean)},
-                {x, held(p.rmse_mean)}, colour, 2);
-    if (!numbers) continue;
-    TextStyle style;
-    style.height_px = 7;
-    style.colour = colour;
-    style.halo = true;
-    axes.text({x + 1, held(p.rmse_mean) + 0.05}, fmt::format("{:.2f}", p.rmse_sd), style);
+void write_deviations(Axes& axes, const Curve& curve, const Drawn& drawn, Rgb colour) {
+  TextStyle style;
+  style.height_px = 8;
+  style.colour = colour;
+  style.halo = true;
+  for (std::size_t i = 0; i < drawn.places.size(); ++i)
+    axes.text(drawn.places[i] + Eigen::Vector2d(0.5, 0.05),
+              fmt::format("{:.2f}", curve.points[i].rmse_sd), style);
+}
+
+/// Success above and RMSE below in column `column` of `columns`.
+void draw_column(Canvas& canvas, int columns, int column, const std::string& title,
+                 const std::vector<Curve>& curves, bool numbers) {
+  AxesOptions success;
+  success.title = title + ": success (strict), 95 % intervals";
+  success.x_name = "shift (% of the side)";
+  success.y_name = "success (%)";
+  success.low = {-4, 0};
+  success.high = {215, 100};  // beyond 150 % stands the legend
+  success.equal_scale = false;
+  AxesOptions rmse = success;
+  rmse.title = fmt::format("RMSE, mean and standard deviation (cut off at {:g})", most_rmse);
+  rmse.y_name = "RMSE (sides)";
+  rmse.high = {215, most_rmse};
+  Axes above(canvas, grid_panel(canvas, columns, 2, column), success);
+  Axes below(canvas, grid_panel(canvas, columns, 2, columns + column), rmse);
+  std::vector<std::pair<std::string, Rgb>> names;
+  std::vector<Drawn> shares, errors;
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    const double offset = 0.4 * (static_cast<double>(k) - 0.5 * static_cast<double>(curves.size()));
+    shares.push_back(success_of(curves[k], offset));
+    errors.push_back(rmse_of(curves[k], offset));
+    names.emplace_back(curves[k].name(), colours::categorical(k));
   }
+  draw(above, shares);
+  draw(below, errors);
+  if (numbers)
+    for (std::size_t k = 0; k < curves.size(); ++k)
+      write_deviations(below, curves[k], errors[k], colours::categorical(k));
+  above.legend(names);
 }
 
 }  // namespace
@@ -109,28 +160,20 @@ std::string curves_csv(const std::vector<Curve>& curves) {
 
 void draw_curves(const std::string& path, const std::string& title,
                  const std::vector<Curve>& curves, bool numbers) {
-  Canvas canvas(1100, 1000);
-  AxesOptions success;
-  success.title = title + ": success (strict), 95 % intervals";
-  success.x_name = "shift (% of the side)";
-  success.y_name = "success (%)";
-  success.high = {200, 100};
-  success.equal_scale = false;
-  AxesOptions rmse = success;
-  rmse.title = fmt::format("RMSE, mean and standard deviation (held at {:g})", most_rmse);
-  rmse.y_name = "RMSE (sides)";
-  rmse.high = {200, most_rmse};
-  Axes above(canvas, grid_panel(canvas, 1, 2, 0), success);
-  Axes below(canvas, grid_panel(canvas, 1, 2, 1), rmse);
-  std::vector<std::pair<std::string, Rgb>> names;
-  for (std::size_t k = 0; k < curves.size(); ++k) {
-    const Rgb colour = colours::categorical(k);
-    const double offset = 0.6 * (static_cast<double>(k) - 0.5 * static_cast<double>(curves.size()));
-    draw_success(above, curves[k], colour, offset);
-    draw_rmse(below, curves[k], colour, offset, numbers);
-    names.emplace_back(curves[k].name(), colour);
+  constexpr std::size_t most_in_a_panel = 8;
+  std::vector<std::vector<Curve>> panels;
+  for (const Curve& curve : curves) {
+    const auto same = std::find_if(panels.begin(), panels.end(), [&](const auto& panel) {
+      return curves.size() <= most_in_a_panel || panel[0].method == curve.method;
+    });
+    if (same == panels.end())
+      panels.push_back({curve});
+    else
+      same->push_back(curve);
   }
-  above.legend(names);
+  const int columns = static_cast<int>(panels.size());
+  Canvas canvas(columns == 1 ? 1100 : 900 * columns, 1000);
+  for (int k = 0; k < columns; ++k) draw_column(canvas, columns, k, title, panels[k], numbers);
   write_png(path, canvas.picture());
 }
 

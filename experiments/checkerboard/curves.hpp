@@ -32,8 +32,9 @@ Curve run_curve(const std::string& figure, Method method, const SyntheticCase& s
 
 std::string curves_csv(const std::vector<Curve>& curves);
 
-/// Success with Wilson intervals above, mean RMSE with standard deviations below; PNG. `numbers`
-/// writes the standard deviation beside each point, as Figure 8 does.
+/// Success with Wilson intervals above, mean RMSE with standard deviations below; PNG. More than
+/// eight lines get a column for each method. `numbers` writes the standard deviation beside each
+/// point, as Figure 8 does.
 void draw_curves(const std::string& path, const std::string& title,
                  const std::vector<Curve>& curves, bool numbers);
 

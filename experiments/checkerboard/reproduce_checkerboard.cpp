@@ -37,6 +37,13 @@ Cell statement(const std::string& row, const std::string& column, const std::str
   return {row, column, "%", printed, ours, verdict, note};
 }
 
+/// A method's name in words.
+std::string words(Method method) {
+  std::string text = to_string(method);
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
 Verdict verdict_of(bool holds, bool fails) {
   return holds ? Verdict::agrees : fails ? Verdict::differs : Verdict::undecidable;
 }
@@ -65,8 +72,8 @@ void add_rotation_statement(const std::vector<Curve>& curves, std::vector<Cell>&
     }
     const Interval ours = percent(worst);
     cells.push_back(statement(
-        row, fmt::format("least success, {}, target {}", to_string(method), to_string(target)),
-        "> 70", ours, verdict_of(ours.high >= 70, ours.high < 70), note));
+        row, fmt::format("least success, {}, target {}", words(method), to_string(target)), "> 70",
+        ours, verdict_of(ours.high >= 70, ours.high < 70), note));
   };
   add(Method::coloured, Target::identical, "");
   add(Method::coloured, Target::independent, "");
@@ -110,8 +117,7 @@ void add_baseline_statement(const std::vector<Curve>& curves, std::vector<Cell>&
     const Share share = curve_of(curves, one.method, one.rotation_deg).at(60).strict;
     const Interval ours = percent(share);
     cells.push_back(statement(
-        row,
-        fmt::format("success at 60 % shift, {}, {} deg", to_string(one.method), one.rotation_deg),
+        row, fmt::format("success at 60 % shift, {}, {} deg", words(one.method), one.rotation_deg),
         "not reliable", ours, verdict_of(ours.low < 90, ours.low >= 90), one.note));
   }
 }

@@ -13,7 +13,7 @@ TEST(BlurredPattern, IsTheProductOfTwoErrorFunctionsOnTwoByTwoCells) {
   const BoardSpec board;
   for (const double x : {-0.05, -0.003, 0.0, 0.001, 0.02}) {
     for (const double y : {-0.01, 0.002, 0.06}) {
-      const BlurredPattern pattern = blurred_pattern(board, {x, y}, {0.004, 0.003});
+      const auto pattern = BlurredPattern(board, {0.004, 0.003}).at({x, y});
       const double expected = -std::erf(x / (std::numbers::sqrt2 * 0.004)) *
                               std::erf(y / (std::numbers::sqrt2 * 0.003));
       EXPECT_NEAR(pattern.value, expected, 1e-5);
@@ -27,20 +27,20 @@ TEST(BlurredPattern, DerivativesAreThoseOfItsValue) {
   const double h = 1e-7;
   for (const Eigen::Vector2d& at : {Eigen::Vector2d(0.021, -0.003), Eigen::Vector2d(-0.077, 0.052),
                                     Eigen::Vector2d(0.1, 0.0)}) {
-    const BlurredPattern here = blurred_pattern(board, at, blur);
+    const auto here = BlurredPattern(board, blur).at(at);
     for (int k = 0; k < 2; ++k) {
       const Eigen::Vector2d step = h * Eigen::Vector2d::Unit(k);
-      EXPECT_NEAR((blurred_pattern(board, at + step, blur).value -
-                   blurred_pattern(board, at - step, blur).value) /
+      EXPECT_NEAR((BlurredPattern(board, blur).at(at + step).value -
+                   BlurredPattern(board, blur).at(at - step).value) /
                       (2 * h),
                   here.by_place[k], 1e-4);
-      EXPECT_NEAR((blurred_pattern(board, at, blur + step).value -
-                   blurred_pattern(board, at, blur - step).value) /
+      EXPECT_NEAR((BlurredPattern(board, blur + step).at(at).value -
+                   BlurredPattern(board, blur - step).at(at).value) /
                       (2 * h),
                   here.by_blur[k], 1e-3);
     }
-    EXPECT_NEAR((blurred_pattern({5, 4, 0.05 + h}, at, blur).value -
-                 blurred_pattern({5, 4, 0.05 - h}, at, blur).value) /
+    EXPECT_NEAR((BlurredPattern({5, 4, 0.05 + h}, blur).at(at).value -
+                 BlurredPattern({5, 4, 0.05 - h}, blur).at(at).value) /
                     (2 * h),
                 here.by_cell, 1e-3);
   }
@@ -50,7 +50,7 @@ TEST(BlurredPattern, SharpEdgesGiveThePatternItself) {
   const BoardSpec board{4, 3, 0.1};
   for (double x = -0.19; x < 0.2; x += 0.037)
     for (double y = -0.14; y < 0.15; y += 0.031)
-      EXPECT_NEAR(blurred_pattern(board, {x, y}, {1e-6, 1e-6}).value, pattern_sign(board, {x, y}),
+      EXPECT_NEAR(BlurredPattern(board, {1e-6, 1e-6}).at({x, y}).value, pattern_sign(board, {x, y}),
                   1e-9);
 }
 

@@ -6,22 +6,30 @@
 
 namespace alea {
 
-BlurredWave blurred_wave(double place_m, int cells, double cell_m, double blur_m) {
+BlurredWave::BlurredWave(int cells, double cell_m, double blur_m)
+    : edges_(cells - 1),
+      cells_per_m_(1 / cell_m),
+      half_cells_(0.5 * cells),
+      cell_m_(cell_m),
+      scale_(1 / (std::numbers::sqrt2 * blur_m)) {
   constexpr double reach = 4.5;  // standard deviations beyond which an edge is a step
-  const int edges = cells - 1;
-  // Edge k (from 1) lies at (k - cells / 2) cells.
-  const double in_cells = place_m / cell_m + 0.5 * cells;
-  const double span = reach * blur_m / cell_m;
-  const int first = std::clamp(static_cast<int>(std::ceil(in_cells - span)), 1, edges + 1);
-  const int last = std::clamp(static_cast<int>(std::floor(in_cells + span)), 0, edges);
-  BlurredWave wave;
+  reach_cells_ = reach * blur_m / cell_m;
+}
+
+BlurredWave::Value BlurredWave::at(double place_m) const {
+  // Edge k (from 1) lies at (k - cells / 2) cells; those within reach are first to last.
+  const double in_cells = place_m * cells_per_m_ + half_cells_;
+  const double low = std::clamp(in_cells - reach_cells_, 0.0, edges_ + 1.0);
+  const double high = std::clamp(in_cells + reach_cells_, 0.0, edges_ + 0.5);
+  const int below = static_cast<int>(low), last = static_cast<int>(high);
+  const int first = std::clamp(below < low ? below + 1 : below, 1, edges_ + 1);
+  Value wave;
   wave.value = first % 2 == 1 ? 1 : -1;  // after the edges below `first`
   double sign = -wave.value;
   for (int k = first; k <= last; ++k, sign = -sign) {
-    const double from_centre = k - 0.5 * cells;
-    const double u = (place_m - from_centre * cell_m) / (std::numbers::sqrt2 * blur_m);
-    const double slope =
-        2 * std::numbers::inv_sqrtpi * std::exp(-u * u) / (std::numbers::sqrt2 * blur_m);
+    const double from_centre = k - half_cells_;
+    const double u = (place_m - from_centre * cell_m_) * scale_;
+    const double slope = 2 * std::numbers::inv_sqrtpi * std::exp(-u * u) * scale_;
     wave.value += sign * (1 + std::erf(u));
     wave.by_place += sign * slope;
     wave.by_blur -= sign * slope * u * std::numbers::sqrt2;
@@ -30,11 +38,9 @@ BlurredWave blurred_wave(double place_m, int cells, double cell_m, double blur_m
   return wave;
 }
 
-BlurredPattern blurred_pattern(const BoardSpec& board, const Eigen::Vector2d& place_m,
-                               const Eigen::Vector2d& blur_m) {
-  const BlurredWave x = blurred_wave(place_m.x(), board.columns, board.cell_m, blur_m.x());
-  const BlurredWave y = blurred_wave(place_m.y(), board.rows, board.cell_m, blur_m.y());
-  BlurredPattern pattern;
+BlurredPattern::Value BlurredPattern::at(const Eigen::Vector2d& place_m) const {
+  const BlurredWave::Value x = columns_.at(place_m.x()), y = rows_.at(place_m.y());
+  Value pattern;
   pattern.value = -x.value * y.value;
   pattern.flat = x.by_place == 0 && y.by_place == 0;
   if (pattern.flat) return pattern;

@@ -16,6 +16,8 @@ struct BoardSpec {
   double side_m() const { return columns * cell_m; }  ///< the longer side
   double height_m() const { return rows * cell_m; }
   int cells() const { return columns * rows; }
+  /// So few that a step or a shadow can look like it: every cell must be seen.
+  bool few_cells() const { return cells() < 12; }
   /// The pattern is the same after half a turn; else half a turn swaps dark and light.
   bool half_turn_symmetric() const { return (columns + rows) % 2 == 0; }
   /// The outline is the same after a quarter turn.

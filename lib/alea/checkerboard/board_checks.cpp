@@ -18,10 +18,11 @@ struct Cells {
 Cells cell_means(const BoardSpec& board, std::span<const Eigen::Vector2d> places_m,
                  std::span<const float> intensity, const BoardFit& fit) {
   Cells cells{std::vector<double>(board.cells()), std::vector<double>(board.cells())};
+  const OnBoard on_board(fit.pose);
   const double margin = std::min(fit.blur_m.maxCoeff() / board.cell_m, 0.25);
   for (std::size_t i = 0; i < places_m.size(); ++i) {
-    const Eigen::Vector2d at = on_board(fit.pose, places_m[i]) / fit.cell_m +
-                               Eigen::Vector2d(board.columns, board.rows) / 2;
+    const Eigen::Vector2d at =
+        on_board(places_m[i]) / fit.cell_m + Eigen::Vector2d(board.columns, board.rows) / 2;
     const double column = std::floor(at.x()), row = std::floor(at.y());
     if (column < 0 || row < 0 || column >= board.columns || row >= board.rows) continue;
     const double from_edge =
@@ -47,18 +48,19 @@ Profile profile_of(const BoardSpec& board, std::span<const Eigen::Vector2d> plac
   const double half = 0.5 * fit.cell_m * (axis == 0 ? board.columns : board.rows);
   const double half_across = 0.5 * fit.cell_m * (axis == 0 ? board.rows : board.columns);
   const double cell = fit.cell_m;
+  const OnBoard on_board(fit.pose);
+  const BlurredPattern pattern({board.columns, board.rows, cell}, fit.blur_m);
   std::vector<std::pair<double, double>> gains;  // distance from the middle, gain of being inside
   Profile profile;
   double beyond_sum = 0;
   for (std::size_t i = 0; i < places_m.size(); ++i) {
-    const Eigen::Vector2d at = on_board(fit.pose, places_m[i]);
+    const Eigen::Vector2d at = on_board(places_m[i]);
     const double out = side * at[axis], across = at[1 - axis];
     if (std::abs(across) > half_across - 0.05 * cell) continue;
     if (out < half - 0.85 * cell || out > half + 0.9 * cell) continue;
     Eigen::Vector2d in_last = at;  // same row, in the outermost column
     in_last[axis] = side * (half - 0.5 * cell);
-    const double sign =
-        blurred_pattern({board.columns, board.rows, cell}, in_last, fit.blur_m).value;
+    const double sign = pattern.at(in_last).value;
     const double agreement =
         std::clamp((intensity[i] - fit.mean) / fit.half_contrast, -1.5, 1.5) * sign;
     gains.emplace_back(out, agreement - 0.5 * sign * sign);
@@ -81,6 +83,36 @@ Profile profile_of(const BoardSpec& board, std::span<const Eigen::Vector2d> plac
   if (at_end) profile.edge_m += spacing_m / 2;  // the board goes on to half way to the next point
   if (profile.beyond_weight > 0) profile.beyond = beyond_sum / profile.beyond_weight;
   return profile;
+}
+
+/// What check_pattern asks for.
+struct Agreement {
+  CellPairs pairs;
+  double correlation = 0, least_correlation = 0, least_right = 0;
+  bool seen_enough = false;
+
+  Refusal refusal(const BoardSpec& board) const {
+    return {RefusalCode::no_pattern,
+            fmt::format("no {} x {} checkerboard: intensities correlate {:.2f} with the pattern "
+                        "(needed {:.2f}), {} of {} neighbouring cells differ the right way ({} "
+                        "seen)",
+                        board.columns, board.rows, correlation, least_correlation, pairs.right,
+                        pairs.all, pairs.seen)};
+  }
+};
+
+Agreement agreement_of(const BoardSpec& board, std::span<const Eigen::Vector2d> places_m,
+                       std::span<const float> intensity, const BoardFit& fit) {
+  Agreement agreement;
+  agreement.correlation = correlate(board, places_m, intensity, fit.pose).correlation;
+  agreement.pairs = cell_pairs(board, places_m, intensity, fit);
+  const bool small = board.few_cells();
+  const double n = static_cast<double>(std::max<std::size_t>(fit.points, 1));
+  // Among all poses that the search tries, noise alone reaches about 4.3 / sqrt(n).
+  agreement.least_correlation = std::max(small ? 0.5 : 0.15, 6 / std::sqrt(n));
+  agreement.least_right = (small ? 1.0 : 0.75) * agreement.pairs.seen;
+  agreement.seen_enough = 2 * agreement.pairs.seen >= (small ? 2 : 1) * agreement.pairs.all;
+  return agreement;
 }
 
 }  // namespace
@@ -108,25 +140,24 @@ CellPairs cell_pairs(const BoardSpec& board, std::span<const Eigen::Vector2d> pl
   return pairs;
 }
 
+std::optional<Refusal> check_roughly(const BoardSpec& board,
+                                     std::span<const Eigen::Vector2d> places_m,
+                                     std::span<const float> intensity, const BoardFit& fit) {
+  const Agreement agreement = agreement_of(board, places_m, intensity, fit);
+  if (agreement.correlation >= 0.7 * agreement.least_correlation && fit.half_contrast > 0 &&
+      agreement.seen_enough)
+    return std::nullopt;
+  return agreement.refusal(board);
+}
+
 std::optional<Refusal> check_pattern(const BoardSpec& board,
                                      std::span<const Eigen::Vector2d> places_m,
                                      std::span<const float> intensity, const BoardFit& fit) {
-  const double r = correlate(board, places_m, intensity, fit.pose).correlation;
-  const CellPairs pairs = cell_pairs(board, places_m, intensity, fit);
-  const bool small = board.cells() < 12;
-  const double least_share = small ? 1.0 : 0.75;
-  const double n = static_cast<double>(std::max<std::size_t>(fit.points, 1));
-  // Among all poses that the search tries, noise alone reaches about 4.3 / sqrt(n).
-  const double least_r = std::max(small ? 0.5 : 0.15, 6 / std::sqrt(n));
-  const bool seen_enough = 2 * pairs.seen >= (small ? 2 : 1) * pairs.all;
-  if (r >= least_r && fit.half_contrast > 0 && seen_enough &&
-      pairs.right >= least_share * pairs.seen)
+  const Agreement agreement = agreement_of(board, places_m, intensity, fit);
+  if (agreement.correlation >= agreement.least_correlation && fit.half_contrast > 0 &&
+      agreement.seen_enough && agreement.pairs.right >= agreement.least_right)
     return std::nullopt;
-  return Refusal{
-      RefusalCode::no_pattern,
-      fmt::format("no {} x {} checkerboard: intensities correlate {:.2f} with the pattern (needed "
-                  "{:.2f}), {} of {} neighbouring cells differ the right way ({} seen)",
-                  board.columns, board.rows, r, least_r, pairs.right, pairs.all, pairs.seen)};
+  return agreement.refusal(board);
 }
 
 BoardExtent board_extent(const BoardSpec& board, std::span<const Eigen::Vector2d> places_m,

@@ -23,6 +23,12 @@ std::optional<Refusal> check_pattern(const BoardSpec& board,
                                      std::span<const Eigen::Vector2d> places_m,
                                      std::span<const float> intensity, const BoardFit& fit);
 
+/// check_pattern for a pose that is right to a hundredth of a cell: 0.7 of the correlation, and no
+/// comparison of cells; what it refuses a precise fit cannot save.
+std::optional<Refusal> check_roughly(const BoardSpec& board,
+                                     std::span<const Eigen::Vector2d> places_m,
+                                     std::span<const float> intensity, const BoardFit& fit);
+
 /// Width and height of what looks like the board (m): from its middle, each way, to where the
 /// pattern of the last column or row ends, because points end or cells stop alternating.
 struct BoardExtent {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cmath>
-
 #include "alea/checkerboard/board_fit.hpp"
 
 namespace alea {
@@ -15,23 +13,28 @@ struct ExpectedIntensity {
   BoardRow row = BoardRow::Zero();  ///< derivatives
 };
 
+/// Huber's limit, in standard deviations.
+inline constexpr double board_huber = 2.0;
+
+/// Of an intensity about what is expected: its own noise, and the jitter of the place.
+inline double intensity_variance(const BoardFit& fit, const ExpectedIntensity& model) {
+  return fit.intensity_sd * fit.intensity_sd +
+         fit.place_sd_m * fit.place_sd_m * model.jitter_factor;
+}
+
 /// Expected intensity of a place and its derivatives; those by parameters that are fixed stay zero.
 class BoardExpectation {
  public:
   BoardExpectation(const BoardSpec& board, const BoardFit& fit, const BoardFitOptions& options)
-      : board_{board.columns, board.rows, fit.cell_m},
+      : pattern_({board.columns, board.rows, fit.cell_m}, fit.blur_m),
         fit_(fit),
         options_(options),
-        cosine_(std::cos(fit.pose.angle_rad)),
-        sine_(std::sin(fit.pose.angle_rad)) {}
+        on_board_(fit.pose) {}
 
-  Eigen::Vector2d on_board(const Eigen::Vector2d& place) const {
-    const Eigen::Vector2d from = place - fit_.pose.centre_m;
-    return {cosine_ * from.x() + sine_ * from.y(), -sine_ * from.x() + cosine_ * from.y()};
-  }
+  Eigen::Vector2d on_board(const Eigen::Vector2d& place) const { return on_board_(place); }
 
   ExpectedIntensity at(const Eigen::Vector2d& on_board_m) const {
-    const BlurredPattern pattern = blurred_pattern(board_, on_board_m, fit_.blur_m);
+    const BlurredPattern::Value pattern = pattern_.at(on_board_m);
     const double half = fit_.half_contrast;
     ExpectedIntensity model;
     model.value = fit_.mean + half * pattern.value + fit_.slope.dot(on_board_m);
@@ -46,18 +49,19 @@ class BoardExpectation {
       if (options_.free_cell) model.row[7] = half * pattern.by_cell;
     }
     if (!pattern.flat || options_.free_slope) {
-      model.row[0] = -(cosine_ * gradient.x() - sine_ * gradient.y());
-      model.row[1] = -(sine_ * gradient.x() + cosine_ * gradient.y());
+      const double c = on_board_.cosine(), s = on_board_.sine();
+      model.row[0] = -(c * gradient.x() - s * gradient.y());
+      model.row[1] = -(s * gradient.x() + c * gradient.y());
       model.row[2] = gradient.x() * on_board_m.y() - gradient.y() * on_board_m.x();
     }
     return model;
   }
 
  private:
-  BoardSpec board_;
+  BlurredPattern pattern_;
   const BoardFit& fit_;
   const BoardFitOptions& options_;
-  double cosine_, sine_;
+  OnBoard on_board_;
 };
 
 }  // namespace alea

@@ -1,11 +1,10 @@
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
-#include "alea/checkerboard/board_expectation.hpp"
+#include "alea/checkerboard/board_precision.hpp"
 
 namespace alea {
 namespace {
@@ -13,10 +12,7 @@ namespace {
 using Row = BoardRow;
 using Matrix = BoardFit::Covariance;
 
-struct Sample {
-  Eigen::Vector2d place;
-  double intensity;
-};
+using Sample = BoardSample;
 
 double median(std::vector<double>& values) {
   if (values.empty()) return 0;
@@ -47,13 +43,14 @@ class Fitter {
   BoardFit rounds(std::span<const Eigen::Vector2d> places, std::span<const float> intensity) {
     for (int round = 0; round < 2; ++round) {
       select(places, intensity);
+      if (!options_.precise) thin_out();
       if (samples_.size() < 12) return fit_;
       update_noise();
       iterate(round == 1 && options_.precise);
     }
     if (!options_.precise) return fit_;
     update_noise();
-    add_covariance();
+    add_precision(BoardExpectation(board_, fit_, options_), samples_, estimated(), fit_);
     return fit_;
   }
 
@@ -66,7 +63,7 @@ class Fitter {
     const BoardExpectation expectation(board_, fit_, options_);
     for (std::size_t i = 0; i < places.size(); ++i) {
       const Eigen::Vector2d at = expectation.on_board(places[i]);
-      if (!inside(at, 0)) continue;
+      if (!in_outline(board_, at)) continue;
       const int light = pattern_sign(board_, at) > 0 ? 1 : 0;
       sum[light] += intensity[i];
       count[light] += 1;
@@ -79,20 +76,26 @@ class Fitter {
 
   double least_blur() const { return std::max(0.25 * options_.spacing_m, 1e-3 * board_.cell_m); }
 
-  bool inside(const Eigen::Vector2d& at, double margin_m) const {
-    return std::abs(at.x()) <= board_.side_m() / 2 - margin_m &&
-           std::abs(at.y()) <= board_.height_m() / 2 - margin_m;
-  }
-
   void select(std::span<const Eigen::Vector2d> places, std::span<const float> intensity) {
     const double margin_m = std::clamp(2.5 * fit_.blur_m.maxCoeff(),
                                        options_.margin_cells * board_.cell_m, 0.3 * board_.cell_m);
     const BoardExpectation expectation(board_, fit_, options_);
     samples_.clear();
     for (std::size_t i = 0; i < places.size(); ++i)
-      if (inside(expectation.on_board(places[i]), margin_m))
+      if (in_outline(board_, expectation.on_board(places[i]), margin_m))
         samples_.push_back({places[i], intensity[i]});
     fit_.points = samples_.size();
+  }
+
+  /// Every k-th point: as many as a hundredth of a cell needs.
+  void thin_out() {
+    const std::size_t most =
+        std::max<std::size_t>(600, 25 * static_cast<std::size_t>(board_.cells()));
+    const std::size_t stride = samples_.size() / most;
+    if (stride < 2) return;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < samples_.size(); i += stride) samples_[kept++] = samples_[i];
+    samples_.resize(kept);
   }
 
   /// Intensity noise from points away from edges, jitter from what is left near them.
@@ -129,58 +132,53 @@ class Fitter {
     }
   }
 
-  double variance(const ExpectedIntensity& model) const {
-    return fit_.intensity_sd * fit_.intensity_sd +
-           fit_.place_sd_m * fit_.place_sd_m * model.jitter_factor;
-  }
-
   struct Sums {
-    Matrix normal_matrix = Matrix::Zero(), scatter = Matrix::Zero(), fisher = Matrix::Zero();
+    Matrix normal_matrix = Matrix::Zero();
     Row right = Row::Zero();
     double cost = 0;
   };
 
-  static constexpr double huber = 2.0;
-
   double cost_of(double standardised) const {
     const double size = std::abs(standardised);
-    return size <= huber ? size * size : huber * (2 * size - huber);
+    return size <= board_huber ? size * size : board_huber * (2 * size - board_huber);
   }
 
-  Sums sums(bool with_scatter) const {
+  Sums sums() const {
+    return options_.free_cell || options_.free_slope ? sums_over<BoardFit::parameters>()
+                                                     : sums_over<7>();
+  }
+
+  /// `count`: parameters that are not fixed at most, the first ones.
+  template <int count>
+  Sums sums_over() const {
     const BoardExpectation expectation(board_, fit_, options_);
     Sums total;
     for (const Sample& sample : samples_) {
       const ExpectedIntensity model = expectation.at(expectation.on_board(sample.place));
-      const double v = variance(model), residual = sample.intensity - model.value;
+      const double v = intensity_variance(fit_, model), residual = sample.intensity - model.value;
       const double size = std::abs(residual) / std::sqrt(v);
-      const double weight = (size <= huber ? 1 : huber / size) / v;
-      // The sums of flat points touch mean and contrast only.
-      if (model.jitter_factor == 0 && !options_.free_slope) {
-        add_flat(model, weight, residual, v, with_scatter, total);
-      } else {
-        total.normal_matrix.noalias() += (weight * model.row) * model.row.transpose();
-        total.right += (weight * residual) * model.row;
-        if (with_scatter) {
-          const double psi = weight * residual;
-          total.scatter.noalias() += (psi * psi * model.row) * model.row.transpose();
-          total.fisher.noalias() += (model.row / v) * model.row.transpose();
-        }
-      }
+      const double weight = (size <= board_huber ? 1 : board_huber / size) / v;
       total.cost += cost_of(size);
+      // Points far from every edge touch mean and contrast only.
+      if (model.jitter_factor == 0 && !options_.free_slope) {
+        add_square<5, 7>(model.row, weight, total.normal_matrix);
+        total.right.segment<2>(5) += (weight * residual) * model.row.segment<2>(5);
+      } else {
+        add_square<0, count>(model.row, weight, total.normal_matrix);
+        total.right.head<count>() += (weight * residual) * model.row.head<count>();
+      }
     }
+    total.normal_matrix.triangularView<Eigen::StrictlyLower>() = total.normal_matrix.transpose();
     return total;
   }
 
-  static void add_flat(const ExpectedIntensity& model, double weight, double residual, double v,
-                       bool with_scatter, Sums& total) {
-    const Eigen::Vector2d row = model.row.segment<2>(5);
-    total.normal_matrix.block<2, 2>(5, 5) += weight * row * row.transpose();
-    total.right.segment<2>(5) += (weight * residual) * row;
-    if (!with_scatter) return;
-    const double psi = weight * residual;
-    total.scatter.block<2, 2>(5, 5) += psi * psi * row * row.transpose();
-    total.fisher.block<2, 2>(5, 5) += row * row.transpose() / v;
+  /// factor * row * row' of parameters first to last - 1, added to the upper triangle.
+  template <int first, int last>
+  static void add_square(const Row& row, double factor, Matrix& matrix) {
+    for (int column = first; column < last; ++column) {
+      const double weighed = factor * row[column];
+      for (int k = first; k <= column; ++k) matrix(k, column) += weighed * row[k];
+    }
   }
 
   std::vector<int> estimated() const {
@@ -209,7 +207,7 @@ class Fitter {
     const std::vector<int> which = estimated();
     double damping = 1e-4;
     fit_.converged = false;
-    Sums now = sums(false);
+    Sums now = sums();
     for (int k = 0; k < most; ++k) {
       Eigen::MatrixXd matrix = now.normal_matrix(which, which);
       matrix.diagonal() *= 1 + damping;
@@ -224,40 +222,26 @@ class Fitter {
       if (stride > 1) step /= stride;
       const BoardFit before = fit_;
       fit_ = moved(step);
-      const Sums next = sums(false);
-      if (next.cost > now.cost) {
+      const Sums next = sums();
+      // In standard deviations, squared. The variances move with the parameters, so that near the
+      // solution of the normal equations the cost decides nothing.
+      const double size = step.dot(now.normal_matrix * step);
+      const bool settled = size < 1e-5 || (step.head<2>().norm() < least_m &&
+                                           std::abs(step[2]) * board_.side_m() < least_m);
+      if (next.cost > now.cost && size > 0.01) {
         fit_ = before;
+        fit_.converged = settled;
         damping *= 10;
-        if (damping > 1e6) return;
+        if (settled || damping > 1e6) return;
         continue;
       }
       damping = std::max(damping * 0.2, 1e-9);
-      const bool settled =
-          step.head<2>().norm() < least_m && std::abs(step[2]) * board_.side_m() < least_m;
       now = next;
       if (settled) {
         fit_.converged = true;
         return;
       }
     }
-  }
-
-  void add_covariance() {
-    const std::vector<int> which = estimated();
-    const Sums total = sums(true);
-    const auto unknowns = static_cast<Eigen::Index>(which.size());
-    const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(unknowns, unknowns);
-    const auto inverse_of = [&](const Matrix& matrix) -> Eigen::MatrixXd {
-      const Eigen::MatrixXd part = matrix(which, which);
-      return part.ldlt().solve(unit);
-    };
-    const Eigen::MatrixXd inverse = inverse_of(total.normal_matrix);
-    const Eigen::MatrixXd scatter = total.scatter(which, which);
-    const double n = static_cast<double>(samples_.size());
-    const double degrees = n / std::max(n - static_cast<double>(unknowns), 1.0);
-    const Eigen::MatrixXd sandwich = degrees * inverse * scatter * inverse;
-    fit_.covariance(which, which) = sandwich;
-    fit_.bound(which, which) = inverse_of(total.fisher);
   }
 
   const BoardSpec& board_;

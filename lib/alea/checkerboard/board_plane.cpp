@@ -1,65 +1,14 @@
 #include "alea/checkerboard/board_plane.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "alea/cloud/spatial_order.hpp"
-#include "alea/core/seed.hpp"
 
 namespace alea {
 namespace {
-
-constexpr std::array<double, 5> slabs{0.003, 0.008, 0.02, 0.06, 0.15};  // of the side
-
-/// Log-likelihood of points in a slab of this half thickness and the rest anywhere in the crop,
-/// over that of all anywhere.
-double slab_gain(std::size_t inside, std::size_t all, double half_thickness, double crop_radius) {
-  const double n = static_cast<double>(all), k = static_cast<double>(inside);
-  if (inside == 0) return 0;
-  const double share = k / n, volume = half_thickness / crop_radius;
-  double gain = k * std::log(share / volume);
-  if (inside < all) gain += (n - k) * std::log((1 - share) / std::max(1 - volume, 1e-6));
-  return gain;
-}
-
-struct Slab {
-  Plane plane;
-  double half_thickness = 0, gain = 0;
-};
-
-void improve(const Plane& plane, const std::vector<Eigen::Vector3d>& sample, double side_m,
-             double radius, Slab& best) {
-  std::array<std::size_t, slabs.size()> counts{};
-  for (const Eigen::Vector3d& p : sample) {
-    const double off = std::abs(plane.signed_distance(p)) / side_m;
-    for (std::size_t k = 0; k < slabs.size(); ++k) counts[k] += off <= slabs[k];
-  }
-  for (std::size_t k = 0; k < slabs.size(); ++k) {
-    const double gain = slab_gain(counts[k], sample.size(), slabs[k] * side_m, radius);
-    if (counts[k] >= 8 && gain > best.gain) best = {plane, slabs[k] * side_m, gain};
-  }
-}
-
-/// Principal components of the sample points within 1.5 half thicknesses.
-Plane refitted(const Slab& slab, const std::vector<Eigen::Vector3d>& sample) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-  double n = 0;
-  for (const Eigen::Vector3d& p : sample) {
-    if (std::abs(slab.plane.signed_distance(p)) > 1.5 * slab.half_thickness) continue;
-    sum += p;
-    squares += p * p.transpose();
-    ++n;
-  }
-  const Eigen::Vector3d mean = sum / n;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(squares / n -
-                                                              mean * mean.transpose());
-  const Eigen::Vector3d normal = solver.eigenvectors().col(0);
-  return {normal, normal.dot(mean)};
-}
 
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -78,12 +27,12 @@ class RayResiduals {
     const double c = plane_.plane.normal.dot(points_.rays[i]);
     return std::copysign(std::max(std::abs(c), 0.03), c);
   }
-  double along(std::size_t i) const {
-    return plane_.plane.signed_distance(points_.positions[i]) / cosine(i);
+  double along(std::size_t i, double cosine) const {
+    return plane_.plane.signed_distance(points_.positions[i]) / cosine;
   }
-  Eigen::Vector2d place(std::size_t i) const {
+  Eigen::Vector2d place(std::size_t i, double along_m) const {
     const Eigen::Vector3d& ray = points_.rays.empty() ? plane_.plane.normal : points_.rays[i];
-    return plane_.axes.transpose() * (points_.positions[i] - along(i) * ray - plane_.anchor);
+    return plane_.axes.transpose() * (points_.positions[i] - along_m * ray - plane_.anchor);
   }
 
  private:
@@ -91,12 +40,25 @@ class RayResiduals {
   const BoardPlane& plane_;
 };
 
+struct RayResidual {
+  double cosine, along_m;
+};
+
+std::vector<RayResidual> residuals_of(const RayResiduals& residuals, std::size_t points) {
+  std::vector<RayResidual> all(points);
+  for (std::size_t i = 0; i < points; ++i) {
+    all[i].cosine = residuals.cosine(i);
+    all[i].along_m = residuals.along(i, all[i].cosine);
+  }
+  return all;
+}
+
 /// Robust scale of each class: 1.4826 times the median of |residual|.
-void update_scales(const RayResiduals& residuals, const std::vector<std::uint8_t>& is_light,
-                   BoardPlane& plane) {
+void update_scales(const std::vector<RayResidual>& residuals,
+                   const std::vector<std::uint8_t>& is_light, BoardPlane& plane) {
   std::array<std::vector<double>, 2> sizes;
   for (std::size_t i = 0; i < is_light.size(); ++i)
-    sizes[is_light[i]].push_back(std::abs(residuals.along(i)));
+    sizes[is_light[i]].push_back(std::abs(residuals[i].along_m));
   std::array<double, 2> scale{};
   for (int c = 0; c < 2; ++c)
     scale[c] = sizes[c].size() < 6 ? 0 : std::max(1.4826 * median(sizes[c]), 1e-7);
@@ -104,38 +66,59 @@ void update_scales(const RayResiduals& residuals, const std::vector<std::uint8_t
     plane.range_sd_m[c] = scale[c] > 0 ? scale[c] : std::max(scale[1 - c], 1e-7);
 }
 
-struct PlaneSums {
-  Eigen::Matrix3d slope = Eigen::Matrix3d::Zero();     ///< sum psi' J J'
-  Eigen::Matrix3d weighted = Eigen::Matrix3d::Zero();  ///< sum w J J'
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();   ///< sum psi^2 J J'
-  Eigen::Matrix3d fisher = Eigen::Matrix3d::Zero();    ///< sum J J' / sd^2
+constexpr double tukey = 4.685;
+
+/// Normal equations of one step under Tukey's weights: sum w J J' and - sum w J r.
+struct PlaneStep {
+  Eigen::Matrix3d weighted = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  double squares = 0, weights = 0;
 };
 
-PlaneSums plane_sums(const RayResiduals& residuals, const std::vector<std::uint8_t>& is_light,
-                     const BoardPlane& plane) {
-  constexpr double tukey = 4.685;
-  PlaneSums sums;
+Eigen::Vector3d plane_row(const RayResiduals& rays, std::size_t i, const RayResidual& residual,
+                          double sd) {
+  const Eigen::Vector2d place = rays.place(i, residual.along_m);
+  return Eigen::Vector3d(place.x(), place.y(), -1) / (residual.cosine * sd);
+}
+
+PlaneStep plane_step(const RayResiduals& rays, const std::vector<RayResidual>& residuals,
+                     const std::vector<std::uint8_t>& is_light, const BoardPlane& plane) {
+  PlaneStep sums;
   for (std::size_t i = 0; i < is_light.size(); ++i) {
-    const double sd = plane.range_sd_m[is_light[i]], along = residuals.along(i);
-    const double u = along / (sd * tukey);
-    const Eigen::Vector2d place = residuals.place(i);
-    const Eigen::Vector3d row =
-        Eigen::Vector3d(place.x(), place.y(), -1) / (residuals.cosine(i) * sd);
-    sums.fisher += row * row.transpose();
+    const double sd = plane.range_sd_m[is_light[i]], u = residuals[i].along_m / (sd * tukey);
     if (std::abs(u) >= 1) continue;
-    const double share = 1 - u * u, weight = share * share, psi = weight * along / sd;
-    const Eigen::Matrix3d outer = row * row.transpose();
-    sums.slope += (share * (1 - 5 * u * u)) * outer;
-    sums.weighted += weight * outer;
-    sums.scatter += psi * psi * outer;
-    sums.right -= psi * row;
-    const double off = along * residuals.cosine(i);
-    sums.squares += weight * off * off;
-    sums.weights += weight;
+    const Eigen::Vector3d row = plane_row(rays, i, residuals[i], sd);
+    const Eigen::Vector3d weighed = (1 - u * u) * (1 - u * u) * row;
+    sums.weighted.noalias() += weighed * row.transpose();
+    sums.right -= (residuals[i].along_m / sd) * weighed;
   }
   return sums;
+}
+
+/// Covariance, bound and scatter at the end.
+void add_precision(const RayResiduals& rays, const std::vector<RayResidual>& residuals,
+                   const std::vector<std::uint8_t>& is_light, BoardPlane& plane) {
+  Eigen::Matrix3d slope = Eigen::Matrix3d::Zero();    // sum psi' J J'
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();  // sum psi^2 J J'
+  Eigen::Matrix3d fisher = Eigen::Matrix3d::Zero();   // sum J J' / sd^2
+  double squares = 0, weights = 0;
+  for (std::size_t i = 0; i < is_light.size(); ++i) {
+    const double sd = plane.range_sd_m[is_light[i]], u = residuals[i].along_m / (sd * tukey);
+    const Eigen::Vector3d row = plane_row(rays, i, residuals[i], sd);
+    const Eigen::Matrix3d outer = row * row.transpose();
+    fisher += outer;
+    if (std::abs(u) >= 1) continue;
+    const double share = 1 - u * u, weight = share * share,
+                 psi = weight * residuals[i].along_m / sd;
+    slope += (share * (1 - 5 * u * u)) * outer;
+    scatter += psi * psi * outer;
+    const double off = residuals[i].along_m * residuals[i].cosine;
+    squares += weight * off * off;
+    weights += weight;
+  }
+  const Eigen::Matrix3d inverse = slope.inverse();
+  plane.covariance = inverse * scatter * inverse;
+  plane.bound = fisher.inverse();
+  plane.rmse_m = weights > 0 ? std::sqrt(squares / weights) : 0;
 }
 
 void turn(const Eigen::Vector3d& step, BoardPlane& plane) {
@@ -177,37 +160,6 @@ BoardPoints subset(const BoardPoints& points, const std::vector<std::uint32_t>& 
   return some;
 }
 
-std::optional<RoughPlane> find_rough_plane(const BoardPoints& points, double side_m) {
-  if (points.size() < 8) return std::nullopt;
-  constexpr std::size_t most = 600;
-  std::vector<Eigen::Vector3d> sample;
-  const double stride = std::max(1.0, static_cast<double>(points.size()) / most);
-  double radius = 0;
-  for (double at = 0; at < static_cast<double>(points.size()); at += stride) {
-    sample.push_back(points.positions[static_cast<std::size_t>(at)]);
-    radius = std::max(radius, sample.back().norm());
-  }
-  RandomStream stream({1, 50, 0, 0, Purpose::plane_detector});
-  Slab best;
-  for (int trial = 0; trial < 120; ++trial) {
-    const Eigen::Vector3d& a = sample[stream.below(sample.size())];
-    const Eigen::Vector3d& b = sample[stream.below(sample.size())];
-    const Eigen::Vector3d& c = sample[stream.below(sample.size())];
-    const Eigen::Vector3d across = (b - a).cross(c - a);
-    if (across.norm() < 0.01 * side_m * side_m) continue;
-    const Eigen::Vector3d normal = across.normalized();
-    improve({normal, normal.dot(a)}, sample, side_m, radius, best);
-  }
-  if (best.gain <= 0) return std::nullopt;
-  for (int round = 0; round < 4; ++round)
-    improve(refitted(best, sample), sample, side_m, radius, best);
-  RoughPlane rough{best.plane, best.half_thickness, {}};
-  for (std::uint32_t i = 0; i < points.size(); ++i)
-    if (std::abs(best.plane.signed_distance(points.positions[i])) <= 3 * best.half_thickness)
-      rough.members.push_back(i);
-  return rough;
-}
-
 BoardPlane fit_board_plane(const BoardPoints& points, const std::vector<std::uint8_t>& is_light,
                            const Plane& start) {
   BoardPlane plane;
@@ -218,24 +170,25 @@ BoardPlane fit_board_plane(const BoardPoints& points, const std::vector<std::uin
   if (!points.rays.empty() && points.rays[0].dot(start.normal) > 0) plane.plane = start.flipped();
   plane.anchor = mean - plane.plane.signed_distance(mean) * plane.plane.normal;
   plane.axes = tangent_basis(plane.plane.normal);
-  const RayResiduals residuals(points, plane);
+  const RayResiduals rays(points, plane);
+  std::vector<RayResidual> residuals = residuals_of(rays, points.size());
   for (int round = 0; round < 5; ++round) {
     update_scales(residuals, is_light, plane);
-    const PlaneSums sums = plane_sums(residuals, is_light, plane);
-    turn(sums.weighted.ldlt().solve(sums.right), plane);
+    const PlaneStep sums = plane_step(rays, residuals, is_light, plane);
+    const Eigen::Vector3d step = sums.weighted.ldlt().solve(sums.right);
+    turn(step, plane);
+    residuals = residuals_of(rays, points.size());
+    if (step.dot(sums.weighted * step) < 1e-6) break;  // a thousandth of a standard deviation
   }
-  const PlaneSums sums = plane_sums(residuals, is_light, plane);
-  const Eigen::Matrix3d inverse = sums.slope.inverse();
-  plane.covariance = inverse * sums.scatter * inverse;
-  plane.bound = sums.fisher.inverse();
-  plane.rmse_m = sums.weights > 0 ? std::sqrt(sums.squares / sums.weights) : 0;
+  add_precision(rays, residuals, is_light, plane);
   return plane;
 }
 
 std::vector<Eigen::Vector2d> places_on(const BoardPlane& plane, const BoardPoints& points) {
   const RayResiduals residuals(points, plane);
   std::vector<Eigen::Vector2d> places(points.size());
-  for (std::size_t i = 0; i < places.size(); ++i) places[i] = residuals.place(i);
+  for (std::size_t i = 0; i < places.size(); ++i)
+    places[i] = residuals.place(i, residuals.along(i, residuals.cosine(i)));
   return places;
 }
 

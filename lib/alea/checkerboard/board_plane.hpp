@@ -29,16 +29,6 @@ BoardPoints board_points(const Cloud& cloud, const Eigen::Vector3d& near_m, doub
 /// Those of `points` at the places in `indices`.
 BoardPoints subset(const BoardPoints& points, const std::vector<std::uint32_t>& indices);
 
-/// A plane through points that are mostly not on it: the three-point plane whose slab explains the
-/// points best, over slabs of half thickness 0.003 to 0.15 `side_m` against points spread over the
-/// crop. Empty where no slab does. The numbers of the random stream are the same at every call.
-struct RoughPlane {
-  Plane plane;
-  double half_thickness_m = 0;
-  std::vector<std::uint32_t> members;  ///< within three half thicknesses, ascending
-};
-std::optional<RoughPlane> find_rough_plane(const BoardPoints& points, double side_m);
-
 /// A plane fitted to the members along their rays (along the normal where the scanner is unknown),
 /// with Tukey's weights and a scale of its own for each class.
 struct BoardPlane {

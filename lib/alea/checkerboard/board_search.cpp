@@ -12,6 +12,14 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
+/// Log-likelihood ratio of one point. Capped: on data without noise half a board, whose two cells
+/// are right to the last point, would win over the whole one on a raster a little off; the rest
+/// decides between poses at the cap.
+double gain_of_one(double squared_correlation) {
+  constexpr double cap = 0.8, rest = 0.1;
+  return -0.5 * std::log(1 - std::min(squared_correlation, cap)) + 0.5 * rest * squared_correlation;
+}
+
 /// Sums over the points of one outline: s is the pattern's sign, i the intensity.
 struct OutlineSums {
   double n = 0, i = 0, ii = 0, s = 0, si = 0;
@@ -21,11 +29,8 @@ struct OutlineSums {
     if (!(n > 2) || !(ss_about > 1e-9 * n) || !(ii_about > 1e-12 * n)) return 0;
     return (si - s * i / n) / std::sqrt(ss_about * ii_about);
   }
-  double gain() const {
-    const double r = correlation();
-    // Capped: on data without noise the logarithm alone would decide.
-    return -0.5 * n * std::log(1 - std::min(r * r, 0.95));
-  }
+  double gain() const { return gain(correlation()); }
+  double gain(double r) const { return n * gain_of_one(r * r); }
 };
 
 /// Pixels of sums with running totals, so that a box costs four look-ups.
@@ -102,7 +107,7 @@ struct Grid {
 
 Grid make_grid(const BoardSpec& board, const BoardSearchOptions& options) {
   Grid grid;
-  grid.cell_px = board.columns <= 4 ? 24 / board.columns : 5;
+  grid.cell_px = board.columns <= 3 ? 8 : board.columns == 4 ? 6 : 5;
   grid.pixel_m = board.cell_m / grid.cell_px;
   const double half_diagonal_m = 0.5 * std::hypot(board.side_m(), board.height_m());
   const double reach_m = options.radius_m + 0.5 * board.side_m() + grid.pixel_m;
@@ -153,13 +158,13 @@ std::vector<BoardCandidate> search_angle(const BoardSpec& board, const Grid& gri
   Raster raster(grid.size_px, grid.size_px);
   raster.clear();
   const double c = std::cos(angle_rad), s = std::sin(angle_rad);
+  const double pixels_per_m = 1 / grid.pixel_m;
   for (std::size_t i = 0; i < places_m.size(); ++i) {
     const Eigen::Vector2d from = places_m[i] - options.about_m;
-    const int x =
-        static_cast<int>(std::floor((c * from.x() + s * from.y() + grid.half_m) / grid.pixel_m));
-    const int y =
-        static_cast<int>(std::floor((-s * from.x() + c * from.y() + grid.half_m) / grid.pixel_m));
-    if (x >= 0 && y >= 0 && x < grid.size_px && y < grid.size_px) raster.add(x, y, intensity[i]);
+    const double x = (c * from.x() + s * from.y() + grid.half_m) * pixels_per_m;
+    const double y = (-s * from.x() + c * from.y() + grid.half_m) * pixels_per_m;
+    if (x >= 0 && y >= 0 && x < grid.size_px && y < grid.size_px)
+      raster.add(static_cast<int>(x), static_cast<int>(y), intensity[i]);
   }
   Scratch scratch;
   std::array<std::vector<double>, 5> maps;
@@ -168,6 +173,7 @@ std::vector<BoardCandidate> search_angle(const BoardSpec& board, const Grid& gri
     maps[3 + k] = window_map(raster, k, board, grid.cell_px, true, scratch);
   const bool free_sign = sign_is_free(board);
   std::vector<BoardCandidate> best;
+  double best_gain = 0;
   for (int y = 0; y + board.rows * grid.cell_px <= grid.size_px; ++y) {
     for (int x = 0; x + board.columns * grid.cell_px <= grid.size_px; ++x) {
       const Eigen::Vector2d turned = Eigen::Vector2d(x, y) * grid.pixel_m -
@@ -180,10 +186,13 @@ std::vector<BoardCandidate> search_angle(const BoardSpec& board, const Grid& gri
       BoardCandidate candidate;
       candidate.correlation = sums.correlation();
       if (candidate.correlation == 0 || (candidate.correlation < 0 && !free_sign)) continue;
-      candidate.gain = sums.gain();
-      if (!best.empty() && best.size() >= 2 * options.most_candidates &&
-          candidate.gain <= best.back().gain)
-        continue;
+      const double r2 = candidate.correlation * candidate.correlation;
+      const double least = BoardSearchOptions::least_gain_share * best_gain;
+      // -log(1 - r2) is at most r2 / (1 - r2), which costs less.
+      if (0.55 * sums.n * r2 < least * (1 - r2)) continue;
+      candidate.gain = sums.gain(candidate.correlation);
+      if (candidate.gain < least) continue;
+      best_gain = std::max(best_gain, candidate.gain);
       candidate.points = static_cast<std::size_t>(sums.n);
       candidate.pose = {options.about_m + Eigen::Vector2d(c * turned.x() - s * turned.y(),
                                                           s * turned.x() + c * turned.y()),
@@ -194,8 +203,30 @@ std::vector<BoardCandidate> search_angle(const BoardSpec& board, const Grid& gri
   return best;
 }
 
-std::vector<float> clipped(std::span<const float> intensity) {
-  std::vector<float> sorted(intensity.begin(), intensity.end()), values = sorted;
+/// The points that the search looks at. A board of few cells must correlate by 0.5 at least, which
+/// 2,000 points of a crop show beyond doubt: each then stands for `weight` points.
+struct SearchedPoints {
+  std::vector<Eigen::Vector2d> places;
+  std::vector<float> intensity;
+  double weight = 1;
+};
+
+SearchedPoints searched_points(const BoardSpec& board, std::span<const Eigen::Vector2d> places_m,
+                               std::span<const float> intensity) {
+  constexpr std::size_t enough = 2000;
+  const std::size_t stride =
+      board.few_cells() ? std::max<std::size_t>(1, places_m.size() / enough) : 1;
+  SearchedPoints some;
+  some.weight = static_cast<double>(stride);
+  for (std::size_t i = 0; i < places_m.size(); i += stride) {
+    some.places.push_back(places_m[i]);
+    some.intensity.push_back(intensity[i]);
+  }
+  return some;
+}
+
+std::vector<float> clipped(std::vector<float> values) {
+  std::vector<float> sorted = values;
   const std::size_t n = sorted.size(), low = n / 50, high = n - 1 - n / 50;
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(low), sorted.end());
   const float least = sorted[low];
@@ -210,10 +241,8 @@ std::vector<float> clipped(std::span<const float> intensity) {
 
 }  // namespace
 
-Eigen::Vector2d on_board(const BoardPose2& pose, const Eigen::Vector2d& place_m) {
-  const double c = std::cos(pose.angle_rad), s = std::sin(pose.angle_rad);
-  const Eigen::Vector2d from = place_m - pose.centre_m;
-  return {c * from.x() + s * from.y(), -s * from.x() + c * from.y()};
+double most_gain(std::size_t points) {
+  return static_cast<double>(points) * gain_of_one(1);
 }
 
 std::vector<BoardCandidate> search_board(const BoardSpec& board,
@@ -222,11 +251,12 @@ std::vector<BoardCandidate> search_board(const BoardSpec& board,
                                          const BoardSearchOptions& options) {
   if (places_m.size() < 8) return {};
   const Grid grid = make_grid(board, options);
-  const std::vector<float> values = clipped(intensity);
+  const SearchedPoints some = searched_points(board, places_m, intensity);
+  const std::vector<float> values = clipped(some.intensity);
   std::vector<std::vector<BoardCandidate>> parts(grid.angles);
   parallel_chunks(parts.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k)
-      parts[k] = search_angle(board, grid, places_m, values,
+      parts[k] = search_angle(board, grid, some.places, values,
                               static_cast<double>(k) * grid.angle_step_rad, options);
   });
   std::vector<BoardCandidate> best;
@@ -235,20 +265,34 @@ std::vector<BoardCandidate> search_board(const BoardSpec& board,
       keep_best(board, options.most_candidates, candidate, best);
   std::stable_sort(best.begin(), best.end(),
                    [](const auto& a, const auto& b) { return a.gain > b.gain; });
-  if (best.size() > options.most_candidates) best.resize(options.most_candidates);
+  const double apart_m = 0.5 * board.height_m();
+  std::vector<BoardCandidate> separate;
+  for (const BoardCandidate& one : best)
+    if (separate.size() < options.most_candidates &&
+        std::none_of(separate.begin(), separate.end(), [&](const BoardCandidate& better) {
+          return (better.pose.centre_m - one.pose.centre_m).norm() < apart_m;
+        }))
+      separate.push_back(one);
+  best = std::move(separate);
+  for (BoardCandidate& one : best) {
+    one.gain *= some.weight;
+    one.points = static_cast<std::size_t>(some.weight * static_cast<double>(one.points));
+  }
+  const double least = best.empty() ? 0 : BoardSearchOptions::least_gain_share * best[0].gain;
+  std::erase_if(best, [least](const BoardCandidate& one) { return one.gain < least; });
   return best;
 }
 
 BoardCandidate correlate(const BoardSpec& board, std::span<const Eigen::Vector2d> places_m,
                          std::span<const float> intensity, const BoardPose2& pose) {
   OutlineSums sums;
-  const Eigen::Vector2d half(board.side_m() / 2, board.height_m() / 2);
+  const OnBoard on_board(pose);
   double level = 0;
   for (const float value : intensity) level += value;
   level /= static_cast<double>(std::max<std::size_t>(intensity.size(), 1));
   for (std::size_t k = 0; k < places_m.size(); ++k) {
-    const Eigen::Vector2d at = on_board(pose, places_m[k]);
-    if (std::abs(at.x()) > half.x() || std::abs(at.y()) > half.y()) continue;
+    const Eigen::Vector2d at = on_board(places_m[k]);
+    if (!in_outline(board, at)) continue;
     const double s = pattern_sign(board, at), i = intensity[k] - level;
     sums.n += 1;
     sums.i += i;

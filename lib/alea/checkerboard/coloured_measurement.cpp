@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "alea/checkerboard/board_plane.hpp"
+#include "alea/checkerboard/rough_plane.hpp"
 #include "alea/cloud/normals.hpp"
 #include "alea/core/error.hpp"
 

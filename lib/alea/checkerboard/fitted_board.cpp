@@ -85,15 +85,17 @@ BoardMeasurement described(const FittedBoard& fitted, const BoardSpec& board) {
   result.blur_m = fit.blur_m;
   result.points = fit.points;
   add_axes(fitted, board, result);
-  Cloud flat;
-  flat.intensity = fitted.points.intensity;
-  for (const Eigen::Vector2d& place : fitted.places) {
-    const Eigen::Vector2d at = on_board(fit.pose, place);
-    flat.positions.emplace_back(at.x(), at.y(), 0);
-  }
   const int along = std::max(20, 4 * board.columns);
-  result.colour_score = colour_score(board_template(board, along), flat, fit.mean,
-                                     1.5 * std::max(board.side_m() / along, fitted.spacing_m));
+  const double gate_m = 1.5 * std::max(board.side_m() / along, fitted.spacing_m);
+  Cloud flat;
+  const OnBoard on_board(fit.pose);
+  for (std::size_t i = 0; i < fitted.places.size(); ++i) {
+    const Eigen::Vector2d at = on_board(fitted.places[i]);
+    if (!in_outline(board, at, -gate_m)) continue;
+    flat.positions.emplace_back(at.x(), at.y(), 0);
+    flat.intensity.push_back(fitted.points.intensity[i]);
+  }
+  result.colour_score = colour_score(board_template(board, along), flat, fit.mean, gate_m);
   return result;
 }
 

@@ -9,90 +9,18 @@
 
 #include "alea/checkerboard/board_checks.hpp"
 #include "alea/checkerboard/board_crop.hpp"
+#include "alea/checkerboard/board_sighting.hpp"
 #include "alea/checkerboard/fitted_board.hpp"
 #include "alea/core/error.hpp"
 
 namespace alea {
 namespace {
 
-/// A plane of the crop with the best places of the board on it.
-struct Sighting {
-  BoardPoints points;  ///< of the plane
-  BoardPlane plane;
-  std::vector<Eigen::Vector2d> places;
-  std::vector<BoardCandidate> candidates;
-};
-
-std::vector<std::uint8_t> classes_by_otsu(const std::vector<float>& intensity) {
-  const double threshold = otsu_threshold(intensity);
-  std::vector<std::uint8_t> light(intensity.size());
-  for (std::size_t i = 0; i < light.size(); ++i) light[i] = intensity[i] > threshold;
-  return light;
-}
-
-/// Points whose ray passes the plane within six standard deviations of their class.
-BoardPoints near_plane(const BoardPoints& points, const BoardPlane& plane) {
-  const double reach_m = 6 * std::max(plane.range_sd_m[0], plane.range_sd_m[1]);
-  std::vector<std::uint32_t> kept;
-  for (std::uint32_t i = 0; i < points.size(); ++i) {
-    const double off = std::abs(plane.plane.signed_distance(points.positions[i]));
-    const double cosine =
-        points.rays.empty() ? 1 : std::abs(plane.plane.normal.dot(points.rays[i]));
-    if (off <= reach_m * std::max(cosine, 0.03)) kept.push_back(i);
-  }
-  return subset(points, kept);
-}
-
-Sighting sight(const BoardPoints& points, const RoughPlane& rough, const BoardOptions& options,
-               const Eigen::Vector3d& facing) {
-  Sighting sighting;
-  const BoardPoints members = subset(points, rough.members);
-  const Plane start = rough.plane.signed_distance(facing) < 0 ? rough.plane.flipped() : rough.plane;
-  sighting.plane = fit_board_plane(members, classes_by_otsu(members.intensity), start);
-  sighting.points = near_plane(points, sighting.plane);
-  sighting.places = places_on(sighting.plane, sighting.points);
-  BoardSearchOptions search;
-  search.about_m = -(sighting.plane.axes.transpose() * sighting.plane.anchor);
-  search.radius_m = options.search_sides * options.board.side_m();
-  sighting.candidates =
-      search_board(options.board, sighting.places, sighting.points.intensity, search);
-  return sighting;
-}
-
-/// Planes one after the other, each without the points of those before; best pattern first.
-std::vector<Sighting> sightings(const BoardPoints& points, const BoardOptions& options,
-                                const Eigen::Vector3d& facing) {
-  constexpr int most_planes = 4;
-  std::vector<Sighting> found;
-  BoardPoints rest = points;
-  for (int k = 0; k < most_planes; ++k) {
-    const auto rough = find_rough_plane(rest, options.board.side_m());
-    if (!rough || rough->members.size() < 12) break;
-    Sighting sighting = sight(rest, *rough, options, facing);
-    if (!sighting.candidates.empty()) found.push_back(std::move(sighting));
-    std::vector<std::uint32_t> left;
-    for (std::uint32_t i = 0, m = 0; i < rest.size(); ++i) {
-      if (m < rough->members.size() && rough->members[m] == i)
-        ++m;
-      else
-        left.push_back(i);
-    }
-    if (left.size() < 30 || left.size() < points.size() / 20) break;
-    rest = subset(rest, left);
-  }
-  std::stable_sort(found.begin(), found.end(), [](const Sighting& a, const Sighting& b) {
-    return a.candidates[0].gain > b.candidates[0].gain;
-  });
-  return found;
-}
-
 double spacing_on(const BoardSpec& board, const std::vector<Eigen::Vector2d>& places,
                   const BoardPose2& pose) {
   std::size_t inside = 0;
-  for (const Eigen::Vector2d& place : places) {
-    const Eigen::Vector2d at = on_board(pose, place);
-    inside += std::abs(at.x()) <= board.side_m() / 2 && std::abs(at.y()) <= board.height_m() / 2;
-  }
+  const OnBoard on_board(pose);
+  for (const Eigen::Vector2d& place : places) inside += in_outline(board, on_board(place));
   return std::sqrt(board.side_m() * board.height_m() / std::max<double>(1, inside));
 }
 
@@ -126,52 +54,68 @@ BoardPose2 best_of_shifts(const BoardSpec& board, const std::vector<Eigen::Vecto
   return best.pose;
 }
 
-/// The plane through the board's points alone, and the edges on it; twice, since each helps the
-/// other.
-FittedBoard fit_on_plane(const Sighting& sighting, const BoardCandidate& candidate,
-                         const BoardSpec& board) {
-  FittedBoard fitted;
-  fitted.points = sighting.points;
-  fitted.plane = sighting.plane;
-  fitted.places = sighting.places;
-  BoardPose2 pose = candidate.pose;
+/// The candidate's edges, roughly, on the plane of the sighting.
+FittedBoard fit_roughly(const Sighting& sighting, const BoardCandidate& candidate,
+                        const BoardSpec& board) {
+  FittedBoard fitted{sighting.points, sighting.plane, sighting.places, {}, 0};
+  fitted.spacing_m = spacing_on(board, fitted.places, candidate.pose);
+  BoardFitOptions options = fit_options(board, fitted.spacing_m);
+  options.precise = false;
+  fitted.fit = fit_board(board, fitted.places, fitted.points.intensity, candidate.pose, options);
+  return fitted;
+}
+
+/// Every k-th, so that about `most` remain.
+void thin_out(std::size_t most, std::vector<std::uint32_t>& on, std::vector<std::uint8_t>& light) {
+  const std::size_t stride = std::max<std::size_t>(1, on.size() / most);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < on.size(); i += stride, ++kept) {
+    on[kept] = on[i];
+    light[kept] = light[i];
+  }
+  on.resize(kept);
+  light.resize(kept);
+}
+
+/// The plane through the board's points alone, the places on it and the pose among them.
+BoardPose2 renew_plane(const BoardSpec& board, const BoardPose2& pose, bool precise,
+                       FittedBoard& fitted) {
+  std::vector<std::uint32_t> on;
+  std::vector<std::uint8_t> light;
+  const double margin_m = 0.02 * board.side_m();  // a beam there measures what lies behind it too
+  const OnBoard on_board(pose);
+  for (std::uint32_t i = 0; i < fitted.places.size(); ++i) {
+    const Eigen::Vector2d at = on_board(fitted.places[i]);
+    if (!in_outline(board, at, margin_m)) continue;
+    on.push_back(i);
+    light.push_back(pattern_sign(board, at) > 0);
+  }
+  if (on.size() < 12) return pose;
+  if (!precise) thin_out(1500, on, light);
+  const BoardPlane before = fitted.plane;
+  fitted.plane = fit_board_plane(subset(fitted.points, on), light, before.plane);
+  // The pose goes on to the new plane's coordinates.
+  const Eigen::Vector3d centre = before.anchor + before.axes * pose.centre_m;
+  const Eigen::Vector3d along =
+      before.axes * Eigen::Vector2d(std::cos(pose.angle_rad), std::sin(pose.angle_rad));
+  const Eigen::Vector2d turned = fitted.plane.axes.transpose() * along;
+  fitted.places = places_on(fitted.plane, fitted.points);
+  return {fitted.plane.axes.transpose() * (centre - fitted.plane.anchor),
+          std::atan2(turned.y(), turned.x())};
+}
+
+/// From a rough fit: plane and edges in turn, since each helps the other, then the precise fit.
+void fit_precisely(const BoardSpec& board, FittedBoard& fitted) {
+  const auto& intensity = fitted.points.intensity;
   for (int round = 0; round < 2; ++round) {
+    BoardPose2 pose = fitted.fit.pose;
+    if (board.columns > 2) pose = best_of_shifts(board, fitted.places, intensity, pose);
+    pose = renew_plane(board, pose, round == 1, fitted);
     fitted.spacing_m = spacing_on(board, fitted.places, pose);
     BoardFitOptions options = fit_options(board, fitted.spacing_m);
-    options.precise = false;
-    const auto& intensity = fitted.points.intensity;
-    fitted.fit = round == 0
-                     ? fit_board(board, fitted.places, intensity, pose, options)
-                     : improve_fit(board, fitted.places, intensity, fitted.fit, pose, options);
-    pose = fitted.fit.pose;
-    if (board.columns > 2)
-      pose = best_of_shifts(board, fitted.places, fitted.points.intensity, pose);
-    std::vector<std::uint32_t> on;
-    std::vector<std::uint8_t> light;
-    const double inside = 1 - 0.04;  // a beam on the outline measures what lies behind it too
-    for (std::uint32_t i = 0; i < fitted.places.size(); ++i) {
-      const Eigen::Vector2d at = on_board(pose, fitted.places[i]);
-      if (std::abs(at.x()) > inside * board.side_m() / 2 ||
-          std::abs(at.y()) > inside * board.height_m() / 2)
-        continue;
-      on.push_back(i);
-      light.push_back(pattern_sign(board, at) > 0);
-    }
-    if (on.size() < 12) return fitted;
-    const BoardPlane before = fitted.plane;
-    fitted.plane = fit_board_plane(subset(fitted.points, on), light, before.plane);
-    // The pose goes on to the new plane's coordinates.
-    const Eigen::Vector3d centre = before.anchor + before.axes * pose.centre_m;
-    const Eigen::Vector3d along =
-        before.axes * Eigen::Vector2d(std::cos(pose.angle_rad), std::sin(pose.angle_rad));
-    const Eigen::Vector2d turned = fitted.plane.axes.transpose() * along;
-    pose = {fitted.plane.axes.transpose() * (centre - fitted.plane.anchor),
-            std::atan2(turned.y(), turned.x())};
-    fitted.places = places_on(fitted.plane, fitted.points);
+    options.precise = round == 1;
+    fitted.fit = improve_fit(board, fitted.places, intensity, fitted.fit, pose, options);
   }
-  fitted.fit = improve_fit(board, fitted.places, fitted.points.intensity, fitted.fit, pose,
-                           fit_options(board, fitted.spacing_m));
-  return fitted;
 }
 
 std::optional<Refusal> check(const FittedBoard& fitted, const BoardSpec& board) {
@@ -215,12 +159,22 @@ Result<BoardMeasurement> measure_points(const BoardPoints& points, const Eigen::
   std::optional<Refusal> first_refusal;
   std::optional<BoardMeasurement> found;
   const double side_m = options.board.side_m();
+  const double least_gain = BoardSearchOptions::least_gain_share * planes[0].candidates[0].gain;
   for (const Sighting& sighting : planes) {
     for (const BoardCandidate& candidate : sighting.candidates) {
-      if (candidate.gain < 0.3 * planes[0].candidates[0].gain) break;
-      const FittedBoard fitted = fit_on_plane(sighting, candidate, options.board);
-      if (auto refusal = check(fitted, options.board)) {
-        if (!first_refusal) first_refusal = refusal;
+      if (candidate.gain < least_gain) break;
+      FittedBoard fitted = fit_roughly(sighting, candidate, options.board);
+      auto refusal =
+          check_roughly(options.board, fitted.places, fitted.points.intensity, fitted.fit);
+      if (!refusal) {
+        fit_precisely(options.board, fitted);
+        refusal = check(fitted, options.board);
+      }
+      if (refusal) {
+        // A pattern of another size says more than a place without one.
+        if (!first_refusal || (first_refusal->code == RefusalCode::no_pattern &&
+                               refusal->code != RefusalCode::no_pattern))
+          first_refusal = refusal;
         continue;
       }
       const BoardMeasurement one = described(fitted, options.board);

@@ -13,7 +13,6 @@ class CubeIndex {
   CubeIndex(const Cloud& cloud, double cube_m);
 
   struct Cube {
-    std::uint64_t key = 0;
     std::uint32_t first = 0, last = 0;  ///< places in `order`
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     double intensity = 0;  ///< mean
@@ -25,12 +24,31 @@ class CubeIndex {
   std::vector<std::uint32_t> points_of(const std::vector<std::uint32_t>& cubes) const;
 
  private:
-  std::uint64_t key_of(const Eigen::Vector3d& place) const;
+  friend class CubeSurroundings;
+  /// Number of the cube along each axis.
+  Eigen::Array3i cell_of(const Eigen::Vector3d& place) const;
 
   Eigen::Vector3d low_;
   double cube_m_;
   std::vector<std::uint32_t> order_;
   std::vector<Cube> cubes_;
+  std::vector<std::uint64_t> keys_;  ///< of the cubes, ascending
+};
+
+/// What CubeIndex::around gives, for places that follow each other: each search begins where the
+/// last one ended.
+class CubeSurroundings {
+ public:
+  CubeSurroundings(const CubeIndex& index, int reach);
+  const std::vector<std::uint32_t>& around(const Eigen::Vector3d& place);
+
+ private:
+  /// The first cube at or behind `key`, looked for from `from`.
+  std::uint32_t first_from(std::uint32_t from, std::uint64_t key) const;
+
+  const CubeIndex& index_;
+  int reach_;
+  std::vector<std::uint32_t> starts_, found_;
 };
 
 struct Saddle {
