@@ -10,6 +10,7 @@
 #include "experiments/command/command.hpp"
 #include "experiments/command/reproduction_json.hpp"
 #include "experiments/die/reproduce_die.hpp"
+#include "experiments/markerless/reproduce_markerless.hpp"
 
 namespace alea::command {
 namespace {
@@ -29,6 +30,9 @@ Tables reproduce_one(const ReproduceOptions& options, const std::string& paper,
   if (paper == "checkerboard")
     return experiments::checkerboard::reproduce_checkerboard(
         {folder, options.smoke, options.common.seed, progress});
+  if (paper == "markerless")
+    return experiments::markerless::reproduce_markerless(
+        {folder, options.smoke, options.common.seed, progress});
   experiments::die::Reproduction result =
       experiments::die::reproduce_die({folder, options.smoke, options.common.seed, progress});
   if (!result.no_pictures.empty()) fmt::print(stderr, "{}\n", result.no_pictures);
@@ -39,7 +43,7 @@ int reproduce(const ReproduceOptions& options) {
   const ThreadLimit limit(options.common.threads);
   const ProgressCallback progress = make_progress(options.common);
   Tables tables;
-  for (const std::string paper : {"die", "checkerboard"}) {
+  for (const std::string paper : {"die", "checkerboard", "markerless"}) {
     if (options.paper != "all" && options.paper != paper) continue;
     Tables own = reproduce_one(options, paper, progress);
     const std::filesystem::path file = std::filesystem::path(options.out) / paper / "tables.json";
@@ -66,9 +70,9 @@ void add_reproduce(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ReproduceOptions>();
   CLI::App* const command =
       app.add_subcommand("reproduce", "Repeat a paper: its tables, statements and figures");
-  command->add_option("paper", options->paper, "die, checkerboard, or all")
+  command->add_option("paper", options->paper, "die, checkerboard, markerless, or all")
       ->required()
-      ->check(CLI::IsMember({"die", "checkerboard", "all"}));
+      ->check(CLI::IsMember({"die", "checkerboard", "markerless", "all"}));
   command->add_option("--out", options->out, "Folder of the results; each paper has its own in it")
       ->required();
   command->add_flag("--smoke", options->smoke, "Few trials: minutes instead of an hour");

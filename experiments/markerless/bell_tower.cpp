@@ -165,7 +165,7 @@ void add_stations(Scene& scene, const TwinOptions& options, RandomStream& stream
     const double tripod = between(stream, 1.5, 1.75), heading = between(stream, -pi / 4, pi / 4);
     scene.stations.push_back(levelled_station(fmt::format("ST{}", i + 1),
                                               place + Eigen::Vector3d(0, 0, tripod), heading,
-                                              options.step_rad));
+                                              options.step_rad, 15));
   }
 }
 

@@ -125,7 +125,7 @@ void add_stations(Scene& scene, const TwinOptions& options, const Eigen::Vector2
     const double tripod = between(stream, 1.5, 1.75), heading = between(stream, -pi / 4, pi / 4);
     place.z() = ground_z(scene, slope, place.x(), place.y()) + tripod;
     scene.stations.push_back(
-        levelled_station(fmt::format("ST{}", i + 1), place, heading, options.step_rad));
+        levelled_station(fmt::format("ST{}", i + 1), place, heading, options.step_rad, 12));
   }
 }
 

@@ -76,7 +76,7 @@ bool is_clear(const Scene& scene, const Eigen::Vector3d& place_m, double margin_
 }
 
 Station levelled_station(const std::string& name, const Eigen::Vector3d& position_m,
-                         double heading_rad, double step_rad) {
+                         double heading_rad, double step_rad, double max_range_m) {
   Station station;
   station.name = name;
   station.scene_from_scan = levelled_pose(position_m, heading_rad);
@@ -85,7 +85,7 @@ Station levelled_station(const std::string& name, const Eigen::Vector3d& positio
   station.elevation = {-65 * pi / 180, 88 * pi / 180, step_rad};
   station.scanner.noise = {0.003, 0, 0.001, 2.4e-5};
   station.scanner.intensity_noise = 0.03;
-  station.scanner.max_range_m = 25;
+  station.scanner.max_range_m = max_range_m;
   return station;
 }
 

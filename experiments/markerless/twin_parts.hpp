@@ -21,9 +21,10 @@ void add_tree(Scene& scene, const std::string& id, const Eigen::Vector3d& foot_m
 /// Is this place clear of every box, cylinder and sphere by a margin, seen from above?
 bool is_clear(const Scene& scene, const Eigen::Vector3d& place_m, double margin_m);
 
-/// A levelled scanner with the instrument of the study: 3 mm range noise, 25 m range.
+/// A levelled scanner with the instrument of the study: 3 mm range noise. `max_range_m` is where
+/// the scans were cropped: set so that the mean overlap at the truth is the printed one.
 Station levelled_station(const std::string& name, const Eigen::Vector3d& position_m,
-                         double heading_rad, double step_rad);
+                         double heading_rad, double step_rad, double max_range_m);
 
 double between(RandomStream& stream, double low, double high);
 

@@ -27,7 +27,7 @@ TwinOptions coarse_twin(bool bare) {
 }
 
 TEST(RegisterMarkerless, FindsOutdoorAndIndoorStationsOfTheTower) {
-  const TwinScans scans = scan_twin(bell_tower(coarse_twin(false)), {0, 1, 5}, 1);
+  const TwinScans scans = scan_twin(bell_tower(coarse_twin(false)), {0, 5, 6}, 1);
   for (const std::size_t moving : {std::size_t{1}, std::size_t{2}}) {
     const auto found = register_markerless(scans.clouds[0], scans.clouds[moving], {});
     ASSERT_TRUE(found.registration.master_from_slave) << found.registration.refusal->message;
@@ -45,6 +45,25 @@ TEST(RegisterMarkerless, RefusesTheBareTowerAndCountsItsPoses) {
   ASSERT_TRUE(found.registration.refusal);
   EXPECT_EQ(found.registration.refusal->code, RefusalCode::ambiguous_target);
   EXPECT_GE(found.registration.ambiguity->alternatives, 3);
+}
+
+TEST(RegisterMarkerless, FarFromTheOriginGivesTheSamePose) {
+  const TwinScans scans = scan_twin(bell_tower(coarse_twin(false)), {5, 6}, 1);
+  const Eigen::Vector3d far(5e5, -5e5, 100);
+  const auto moved = [&](Cloud cloud) {
+    for (Eigen::Vector3d& p : cloud.positions) p += far;
+    cloud.scanner_position = far;
+    return cloud;
+  };
+  const auto near_origin = register_markerless(scans.clouds[1], scans.clouds[0], {});
+  const auto far_away = register_markerless(moved(scans.clouds[1]), moved(scans.clouds[0]), {});
+  ASSERT_TRUE(near_origin.registration.master_from_slave);
+  ASSERT_TRUE(far_away.registration.master_from_slave);
+  const RigidTransform& a = *near_origin.registration.master_from_slave;
+  RigidTransform b = *far_away.registration.master_from_slave;
+  b.translation += b.rotation * far - far;
+  EXPECT_LT((a.rotation - b.rotation).norm(), 1e-6);
+  EXPECT_LT((a.translation - b.translation).norm(), 1e-5);
 }
 
 /// A real pair of ALEA_DATASETS with the reference of its SOURCE.md.
