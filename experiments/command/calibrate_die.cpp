@@ -12,6 +12,7 @@
 #include "alea/pipeline/calibrate_shape.hpp"
 #include "experiments/command/calibrate.hpp"
 #include "experiments/command/die_file.hpp"
+#include "experiments/command/json_parts.hpp"
 #include "experiments/command/noise_file.hpp"
 #include "experiments/command/reading.hpp"
 #include "experiments/command/registration_json.hpp"
@@ -70,8 +71,7 @@ nlohmann::json calibration_json(const CalibrateDieArguments& arguments,
                              {"seed", arguments.common.seed},
                              {"warnings", nlohmann::json::array()}};
   if (!result) {
-    document["refusal"] = {{"code", to_string(result.refusal().code)},
-                           {"message", result.refusal().message}};
+    document["refusal"] = refusal_json(result.refusal());
     return document;
   }
   const DieAdjustment& adjusted = result->adjusted;

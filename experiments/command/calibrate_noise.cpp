@@ -14,6 +14,7 @@
 #include "alea/io/atomic_file.hpp"
 #include "alea/io/cloud_file.hpp"
 #include "experiments/command/calibrate.hpp"
+#include "experiments/command/json_parts.hpp"
 #include "experiments/command/noise_file.hpp"
 #include "experiments/command/reading.hpp"
 
@@ -113,8 +114,7 @@ int run(const NoiseArguments& arguments) {
                              {"refusal", nullptr},
                              {"noise", nullptr}};
   if (!estimate) {
-    document["refusal"] = {{"code", to_string(estimate.refusal().code)},
-                           {"message", estimate.refusal().message}};
+    document["refusal"] = refusal_json(estimate.refusal());
     write_json(arguments.common, document);
     return report_refusal(estimate.refusal());
   }

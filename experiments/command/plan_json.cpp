@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "alea/core/version.hpp"
+#include "experiments/command/json_parts.hpp"
 
 namespace alea::command {
 namespace {
@@ -14,18 +15,6 @@ namespace {
 using nlohmann::json;
 
 constexpr double deg_per_rad = 180 / std::numbers::pi;
-
-template <typename Derived>
-json list(const Eigen::MatrixBase<Derived>& values) {
-  json out = json::array();
-  for (Eigen::Index i = 0; i < values.size(); ++i) out.push_back(values(i));
-  return out;
-}
-
-json refusal_json(const std::optional<Refusal>& refusal) {
-  if (!refusal) return nullptr;
-  return {{"code", to_string(refusal->code)}, {"message", refusal->message}};
-}
 
 json accuracy_json(const PoseAccuracy& accuracy) {
   return {{"rotation_rad", accuracy.rotation_rad},
@@ -43,18 +32,16 @@ json pair_json(const PairPlan& pair, const PlanResult& plan) {
               {"accuracy", nullptr},
               {"accuracy_of_fitted_facets", nullptr},
               {"room", nullptr},
-              {"reach_m", pair.reach_m ? json(*pair.reach_m) : json(nullptr)},
+              {"reach_m", optional_json(pair.reach_m)},
               {"checks", json::array()}};
   for (const PlanCheck& check : pair.checks)
     out["checks"].push_back({{"id", check.id},
-                             {"centroid_m", list(check.centroid_m)},
+                             {"centroid_m", vector_json(check.centroid_m)},
                              {"offset_m", check.offset_m},
                              {"predicted_sd_m", check.predicted_sd_m}});
   if (!pair.covariance) return out;
-  json rows = json::array();
-  for (int i = 0; i < 6; ++i) rows.push_back(list(pair.covariance->covariance.row(i)));
-  out["covariance"] = rows;
-  out["covariance_about_m"] = list(pair.covariance->about_m);
+  out["covariance"] = matrix_json(pair.covariance->covariance);
+  out["covariance_about_m"] = vector_json(pair.covariance->about_m);
   out["accuracy"] = accuracy_json(pair.accuracy);
   if (pair.fitted) out["accuracy_of_fitted_facets"] = accuracy_json(*pair.fitted);
   out["room"] = {{"rms_m", pair.map->root_mean_square_m()},
@@ -143,7 +130,7 @@ json plan_json(const PlanResult& plan) {
                       {"incidence_rad", facet.incidence_rad}});
   for (const PairPlan& pair : plan.pairs) pairs.push_back(pair_json(pair, plan));
   for (const DiePosition& place : plan.positions)
-    positions.push_back({{"centre_m", list(place.centre_m)},
+    positions.push_back({{"centre_m", vector_json(place.centre_m)},
                          {"turn_rad", place.turn_rad},
                          {"room_rms_m", place.refusal ? json(nullptr) : json(place.room_rms_m)},
                          {"refusal", refusal_json(place.refusal)}});

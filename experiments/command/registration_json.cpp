@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "alea/core/version.hpp"
+#include "experiments/command/json_parts.hpp"
 
 namespace alea::command {
 namespace {
@@ -10,25 +11,6 @@ namespace {
 using nlohmann::json;
 
 constexpr double deg_per_rad = 180 / std::numbers::pi;
-
-template <typename Derived>
-json vector_json(const Eigen::MatrixBase<Derived>& v) {
-  json out = json::array();
-  for (Eigen::Index i = 0; i < v.size(); ++i) out.push_back(v(i));
-  return out;
-}
-
-template <typename Derived>
-json matrix_json(const Eigen::MatrixBase<Derived>& m) {
-  json out = json::array();
-  for (Eigen::Index i = 0; i < m.rows(); ++i) out.push_back(vector_json(m.row(i)));
-  return out;
-}
-
-template <typename T>
-json optional_json(const std::optional<T>& value) {
-  return value ? json(*value) : json(nullptr);
-}
 
 json transform_json(const RigidTransform& t, const std::optional<TransformCovariance>& covariance) {
   const Eigen::Quaterniond q(t.rotation);
@@ -167,13 +149,9 @@ json registration_json(const Registration& registration, std::uint64_t seed) {
     planes.push_back(check_plane_json(plane));
   json timing = json::object();
   for (const auto& [stage, seconds] : registration.timing_s) timing[stage] = seconds;
-  json refusal = nullptr;
-  if (registration.refusal)
-    refusal = {{"code", to_string(registration.refusal->code)},
-               {"message", registration.refusal->message}};
   return {{"alea", version()},
           {"status", registration.refusal ? "refused" : "registered"},
-          {"refusal", refusal},
+          {"refusal", refusal_json(registration.refusal)},
           {"method", registration.method},
           {"seed", seed},
           {"warnings", registration.warnings},

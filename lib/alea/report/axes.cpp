@@ -65,8 +65,10 @@ void Axes::draw_frame(const AxesOptions& options, const PanelArea& area) {
                 {.height_px = title_px, .anchor = TextAnchor::centre});
   if (!options.frame) return;
   for (int axis = 0; axis < 2; ++axis) {
-    const std::vector<double> ticks = round_ticks(
+    std::vector<double> ticks = round_ticks(
         low_[axis], high_[axis], std::max(2, static_cast<int>(room[axis] / (axis == 0 ? 75 : 55))));
+    if (axis == 0 && options.whole_x)
+      std::erase_if(ticks, [](double tick) { return tick != std::round(tick); });
     const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : high_[axis] - low_[axis];
     for (const double tick : ticks) {
       Eigen::Vector2d from = low_, to = high_;

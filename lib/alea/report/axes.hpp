@@ -29,7 +29,8 @@ struct AxesOptions {
   Eigen::Vector2d high = Eigen::Vector2d::Ones();
   bool equal_scale = true;  ///< one unit is as long upwards as sideways
   bool grid = true;
-  bool frame = true;  ///< false: no ticks, no frame, just the place
+  bool frame = true;     ///< false: no ticks, no frame, just the place
+  bool whole_x = false;  ///< x counts things: ticks at whole numbers only
 };
 
 /// Axes in a panel: ticks at round numbers, and places in the data's own units; y points up.

@@ -81,8 +81,10 @@ void draw_map(Canvas& canvas, const PanelArea& area, const std::string& title,
     const Eigen::Vector2d low =
         bounds.first + cell_m * Eigen::Vector2d(static_cast<double>(i % columns),
                                                 static_cast<double>(i / columns));
-    const Eigen::Vector2d upper = axes.at(low + Eigen::Vector2d(0, cell_m)),
-                          lower = axes.at(low + Eigen::Vector2d(cell_m, 0));
+    // The last row and column end with the plane, not beyond the frame.
+    const Eigen::Vector2d high = (low + Eigen::Vector2d::Constant(cell_m)).cwiseMin(bounds.second);
+    const Eigen::Vector2d upper = axes.at({low.x(), high.y()}),
+                          lower = axes.at({high.x(), low.y()});
     canvas.box({std::ceil(upper.x()), std::ceil(upper.y())},
                {std::ceil(lower.x()) - 1, std::ceil(lower.y()) - 1},
                colours::diverging(sums[i].y() / sums[i].x() / scale_m));
@@ -179,7 +181,8 @@ Picture check_plane_chart(std::span<const CheckPlane> checks) {
              .y_name = "mm",
              .low = {0.4, 0},
              .high = {std::max(count, 1.0) + 0.6, 1.45 * highest},
-             .equal_scale = false});
+             .equal_scale = false,
+             .whole_x = true});
   for (std::size_t i = 0; i < checks.size(); ++i) {
     const double x = static_cast<double>(i) + 1;
     const CheckPlane& check = checks[i];
