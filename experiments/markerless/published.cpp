@@ -1,13 +1,13 @@
 #include "experiments/markerless/published.hpp"
 
+#include "experiments/engine/build_info.hpp"
 #include "experiments/engine/csv_table.hpp"
 
 namespace alea::experiments::markerless {
 namespace {
 
 CsvTable published(const std::string& name) {
-  return read_csv(std::string(ALEA_DATA_DIR) + "/experiments/markerless/published/" + name +
-                  ".csv");
+  return read_csv(data_dir() + "/experiments/markerless/published/" + name + ".csv");
 }
 
 PublishedPair pair_of(const CsvTable& table, std::size_t row) {
