@@ -73,6 +73,10 @@ struct RealPair {
   double rotation_deg, translation_m;        ///< what the reference can bear
 };
 
+void PrintTo(const RealPair& pair, std::ostream* out) {
+  *out << pair.fixed << " and " << pair.moving;
+}
+
 class RealPairs : public ::testing::TestWithParam<RealPair> {};
 
 TEST_P(RealPairs, AgreeWithTheirReferenceOrAreRefused) {

@@ -12,6 +12,11 @@
 #include "tests/support/named_scenes.hpp"
 
 namespace alea {
+
+static void PrintTo(PlaneDetector detector, std::ostream* out) {
+  *out << to_string(detector);
+}
+
 namespace {
 
 using testing::LabelledScan;

@@ -6,14 +6,28 @@
 #include <cmath>
 #include <numbers>
 
+#include "alea/core/angle.hpp"
 #include "alea/core/error.hpp"
 #include "alea/core/parallel.hpp"
 #include "alea/core/seed.hpp"
 
 namespace alea {
-namespace {
 
-constexpr double deg = std::numbers::pi / 180;
+static void PrintTo(IcpObjective objective, std::ostream* out) {
+  switch (objective) {
+    case IcpObjective::point_to_point:
+      *out << "point_to_point";
+      break;
+    case IcpObjective::point_to_plane:
+      *out << "point_to_plane";
+      break;
+    case IcpObjective::coloured:
+      *out << "coloured";
+      break;
+  }
+}
+
+namespace {
 
 /// Three walls of a corner with a grid of points, normals and a smooth pattern of intensity.
 Cloud corner(int side, double noise_m = 0, std::uint64_t seed = 1) {
@@ -62,7 +76,7 @@ void expect_near(const RigidTransform& a, const RigidTransform& b, double rad, d
   EXPECT_LT((a.translation - b.translation).norm(), m);
 }
 
-class EveryObjective : public testing::TestWithParam<IcpObjective> {
+class EveryObjective : public ::testing::TestWithParam<IcpObjective> {
  protected:
   IcpOptions options() const {
     IcpOptions options;
@@ -108,8 +122,8 @@ TEST_P(EveryObjective, GivesTheSameBitsForAnyThreadCountAndOrderOfThePoints) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Icp, EveryObjective,
-                         testing::Values(IcpObjective::point_to_point, IcpObjective::point_to_plane,
-                                         IcpObjective::coloured));
+                         ::testing::Values(IcpObjective::point_to_point,
+                                           IcpObjective::point_to_plane, IcpObjective::coloured));
 
 TEST(Icp, LeavesWhatAPlaneDoesNotDetermine) {
   IcpOptions options;
