@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "alea/core/angle.hpp"
 #include "experiments/checkerboard/success.hpp"
 #include "experiments/checkerboard/synthetic_trial.hpp"
 
@@ -13,8 +13,6 @@ namespace alea::acceptance {
 namespace {
 
 using namespace experiments::checkerboard;  // NOLINT: the topics are about nothing else
-
-constexpr double degree = std::numbers::pi / 180;
 
 Cell share_cell(const std::string& name, const Share& share, const Limit& limit,
                 Judgement judgement) {
@@ -24,7 +22,7 @@ Cell share_cell(const std::string& name, const Share& share, const Limit& limit,
   cell.interval = {100 * share.low(), 100 * share.high()};
   cell.limit = limit;
   cell.n = share.of;
-  cell.unit = "%";
+  cell.unit = std::string("%");
   cell.judgement = judgement;
   return cell;
 }
@@ -59,7 +57,7 @@ void run_basin(const Options& options, const Report& report) {
     for (int shift = 0; shift <= 90; shift += 10) {
       SyntheticCase synthetic;
       synthetic.shift = shift / 100.0;
-      synthetic.rotation_rad = rotation * degree;
+      synthetic.rotation_rad = rotation * deg;
       const auto outcomes =
           run_trials(synthetic, Method::coloured, options.seed, options.trials_or(own));
       const double limit = rotation == 0 && shift == 90 ? 88 : 96;
@@ -93,7 +91,7 @@ void run_global(const Options& options, const Report& report) {
         for (const int shift : {0, 30, 60, 90, 120, 150}) {
           SyntheticCase synthetic;
           synthetic.shift = shift / 100.0;
-          synthetic.rotation_rad = rotation * degree;
+          synthetic.rotation_rad = rotation * deg;
           synthetic.noise = noise;
           synthetic.target = target;
           const auto some =

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "alea/core/angle.hpp"
 #include "alea/core/seed.hpp"
 
 namespace alea::experiments::checkerboard {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr std::uint32_t experiment = 510;
 
 BoardOptions options_for(const BoardSensor& sensor, double side_factor) {
@@ -74,7 +74,7 @@ SensorScene draw_scene(const BoardSensor& sensor, SensorTarget target, std::uint
   SensorScene scene;
   Eigen::Matrix3d facing;  // the board's z towards the scanner, its rows up
   facing << 0, 0, -1, -1, 0, 0, 0, 1, 0;
-  const auto tilt = [&] { return 20 * degree * (2 * layout.uniform() - 1); };
+  const auto tilt = [&] { return 20 * deg * (2 * layout.uniform() - 1); };
   const Eigen::Vector3d tilts(tilt(), tilt(), 0);
   const double turn = 2 * std::numbers::pi * layout.uniform();
   scene.scan_from_board = {facing * rotation_exp(tilts) * rotation_exp({0, 0, turn}),
@@ -82,8 +82,8 @@ SensorScene draw_scene(const BoardSensor& sensor, SensorTarget target, std::uint
   scene.near_m = scene.scan_from_board.translation + 0.2 * sensor.board_side_m * in_ball(layout);
   const double axis = 2 * std::numbers::pi * layout.uniform();
   const Eigen::Vector3d out_of_plane(std::cos(axis), std::sin(axis), 0);
-  scene.start = {scene.scan_from_board.rotation * rotation_exp(10 * degree * out_of_plane) *
-                     rotation_exp({0, 0, layout.uniform() < 0.5 ? -10 * degree : 10 * degree}),
+  scene.start = {scene.scan_from_board.rotation * rotation_exp(10 * deg * out_of_plane) *
+                     rotation_exp({0, 0, layout.uniform() < 0.5 ? -10 * deg : 10 * deg}),
                  scene.near_m};
   if (target == SensorTarget::no_plate) {
     scene.cloud = clutter(sensor, scene.scan_from_board.translation, layout);

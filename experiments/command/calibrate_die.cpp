@@ -3,8 +3,8 @@
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
+#include "alea/core/angle.hpp"
 #include "alea/core/error.hpp"
 #include "alea/core/parallel.hpp"
 #include "alea/io/atomic_file.hpp"
@@ -91,11 +91,11 @@ void print_calibration(const ShapeCalibration& calibration) {
   const DieAdjustment& adjusted = calibration.adjusted;
   fmt::print("die from {} scans and {} pairs of scene planes: chi-square {:.1f} on {}\n",
              calibration.scans, calibration.planes, adjusted.chi_square, adjusted.freedom);
-  constexpr double deg = 180 / std::numbers::pi;
   for (const AdjustedAngle& angle : adjusted.angles)
     if (angle.angle_rad)
       fmt::print("  angle {}-{}: {:.4f} deg (sd {:.4f})\n", angle.edge.first_pips,
-                 angle.edge.second_pips, *angle.angle_rad * deg, *angle.sd_rad * deg);
+                 angle.edge.second_pips, *angle.angle_rad * deg_per_rad,
+                 *angle.sd_rad * deg_per_rad);
   for (const AdjustedEdge& edge : adjusted.edges)
     if (edge.length_m)
       fmt::print("  edge {}-{}: {:.5f} m (sd {:.5f})\n", edge.edge.first_pips,

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
+#include "alea/core/angle.hpp"
 #include "alea/core/error.hpp"
 
 namespace alea::command {
@@ -121,7 +121,6 @@ GivenShape read_die_file(const std::string& path, double half_edge_m) {
 }
 
 json die_json(const DieAdjustment& adjusted, Chirality hand) {
-  constexpr double deg_per_rad = 180 / std::numbers::pi;
   json planes = json::object(), edges = json::object(), deviations = json::object();
   json angles = json::object(), angle_deviations = json::object();
   std::array<bool, 18> known{};

@@ -4,8 +4,8 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
+#include "alea/core/angle.hpp"
 #include "alea/core/version.hpp"
 #include "experiments/command/json_parts.hpp"
 
@@ -13,8 +13,6 @@ namespace alea::command {
 namespace {
 
 using nlohmann::json;
-
-constexpr double deg_per_rad = 180 / std::numbers::pi;
 
 json accuracy_json(const PoseAccuracy& accuracy) {
   return {{"rotation_rad", accuracy.rotation_rad},

@@ -1,14 +1,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "alea/core/angle.hpp"
 #include "experiments/command/registration_json.hpp"
 
 namespace alea::command {
 namespace {
 
-constexpr double deg_per_rad = 180 / std::numbers::pi;
 constexpr double shown_margin = 30;  // orientations less likely by more are in the JSON only
 
 void print_transform(const Registration& registration) {

@@ -23,7 +23,7 @@ struct BoardsArguments {
   ReadingOptions reading;
 };
 
-Cloud read_scan(const std::string& path, const ReadOptions& options) {
+Cloud read_painted_scan(const std::string& path, const ReadOptions& options) {
   Cloud cloud = read_cloud(path, options);
   if (cloud.empty()) throw input_error(fmt::format("{}: no points; a scan is needed", path));
   if (!cloud.has_intensity() && cloud.colours.empty())
@@ -46,8 +46,8 @@ int run(const BoardsArguments& arguments) {
   const ReadOptions reading = read_options(arguments.reading);
   Stopwatch watch;
   Cloud master, slave;
-  parallel_pair([&] { master = read_scan(arguments.master, reading); },
-                [&] { slave = read_scan(arguments.slave, reading); });
+  parallel_pair([&] { master = read_painted_scan(arguments.master, reading); },
+                [&] { slave = read_painted_scan(arguments.slave, reading); });
   const double read_s = watch.lap_s();
   const auto result = register_checkerboards(master, slave, target);
   const double register_s = watch.lap_s();

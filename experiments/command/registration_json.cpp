@@ -1,7 +1,6 @@
 #include "experiments/command/registration_json.hpp"
 
-#include <numbers>
-
+#include "alea/core/angle.hpp"
 #include "alea/core/version.hpp"
 #include "experiments/command/json_parts.hpp"
 
@@ -9,8 +8,6 @@ namespace alea::command {
 namespace {
 
 using nlohmann::json;
-
-constexpr double deg_per_rad = 180 / std::numbers::pi;
 
 json transform_json(const RigidTransform& t, const std::optional<TransformCovariance>& covariance) {
   const Eigen::Quaterniond q(t.rotation);

@@ -14,8 +14,7 @@ namespace {
 
 using namespace experiments::die;  // NOLINT(google-build-using-namespace)
 
-constexpr std::uint64_t own_trials = 10000;
-constexpr double chi_square_95 = 12.5916;  // six degrees of freedom
+constexpr std::uint64_t adjustment_trials = 10000;
 
 /// The numbers of one method over the trials that were not refused.
 struct Sample {
@@ -35,7 +34,7 @@ Sample sample_of(const std::vector<AdjustmentTrial>& trials, std::size_t method)
     sample.rotation.push_back(e.error.head<3>().squaredNorm());
     sample.translation.push_back(e.error.tail<3>().squaredNorm());
     sample.nees.push_back(e.nees / 6);
-    sample.inside.push_back(e.nees <= chi_square_95 ? 1 : 0);
+    sample.inside.push_back(e.nees <= chi_square_95_of_six ? 1 : 0);
     if (e.freedom > 0) sample.chi_square_share.push_back(e.chi_square / e.freedom);
     for (int k = 0; k < 6; ++k) sample.error[static_cast<std::size_t>(k)].push_back(e.error[k]);
   }
@@ -82,7 +81,8 @@ void report_method(const std::string& name, const std::vector<AdjustmentTrial>& 
 
 void run_adjustment_topic(const Options& options, const Report& all_cells) {
   const Report report = [&](Cell cell) {
-    if (cell.judgement == Judgement::interval) cell.judgement = options.judgement(own_trials);
+    if (cell.judgement == Judgement::interval)
+      cell.judgement = options.judgement(adjustment_trials);
     all_cells(cell);
   };
   std::vector<double> bias_probabilities;
@@ -92,7 +92,8 @@ void run_adjustment_topic(const Options& options, const Report& all_cells) {
     setting.edge_m = edge_m;
     setting.range_m = range_m;
     setting.step_rad = step_rad;
-    const auto trials = run_adjustment_trials(setting, options.seed, options.trials_or(own_trials));
+    const auto trials =
+        run_adjustment_trials(setting, options.seed, options.trials_or(adjustment_trials));
     for (std::size_t method = 0; method < pair_methods.size(); ++method)
       report_method(fmt::format("{:g} m, {:g} m, {:g} mrad, {}: ", edge_m, range_m, step_rad * 1e3,
                                 to_string(pair_methods[method])),

@@ -2,17 +2,16 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "alea/core/angle.hpp"
 #include "alea/evaluate/fisher_bound.hpp"
 #include "experiments/die/acceptance.hpp"
 
 namespace alea::acceptance {
 namespace {
 
-constexpr double deg = std::numbers::pi / 180;
 /// Allowed against the study's tables; wide where a facet is so grazing that the phase of the grid
 /// decides how many rows of points it gets.
 constexpr double tight = 0.03, wide = 0.06;

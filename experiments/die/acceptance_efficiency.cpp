@@ -2,13 +2,14 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "alea/core/angle.hpp"
 #include "alea/evaluate/fisher_bound.hpp"
 #include "experiments/die/acceptance.hpp"
 #include "experiments/die/efficiency_trial.hpp"
+#include "experiments/engine/sample_mean.hpp"
 
 namespace alea::acceptance {
 namespace {
@@ -17,8 +18,7 @@ using experiments::die::EfficiencyCase;
 using experiments::die::EfficiencyTrial;
 using experiments::die::run_efficiency;
 
-constexpr double deg = std::numbers::pi / 180;
-constexpr std::uint64_t own_trials = 10000;
+constexpr std::uint64_t efficiency_trials = 10000;
 
 /// Mean of a number over the trials that were not refused, with its standard error.
 struct Mean {
@@ -78,9 +78,10 @@ PoseAccuracy bound_of(const EfficiencyCase& setting) {
 }
 
 void report_case(const EfficiencyCase& setting, const Options& options, const Report& all_cells) {
-  const auto trials = run_efficiency(setting, options.seed, options.trials_or(own_trials));
+  const auto trials = run_efficiency(setting, options.seed, options.trials_or(efficiency_trials));
   const Report report = [&](Cell cell) {
-    if (cell.judgement == Judgement::interval) cell.judgement = options.judgement(own_trials);
+    if (cell.judgement == Judgement::interval)
+      cell.judgement = options.judgement(efficiency_trials);
     all_cells(cell);
   };
   const PoseAccuracy bound = bound_of(setting);
@@ -93,11 +94,10 @@ void report_case(const EfficiencyCase& setting, const Options& options, const Re
   report(mean_cell(name + "NEES / 6",
                    mean_of(trials, [](const EfficiencyTrial& t) { return t.nees / 6; }),
                    within(1, 0.07)));
-  const double chi_square_95 = 12.5916;  // six degrees of freedom
   report(mean_cell(
       name + "inside the 95 % ellipsoid",
       mean_of(trials,
-              [&](const EfficiencyTrial& t) { return t.nees <= chi_square_95 ? 1.0 : 0.0; }),
+              [&](const EfficiencyTrial& t) { return t.nees <= chi_square_95_of_six ? 1.0 : 0.0; }),
       within(0.95, 0.015)));
   Cell closure =
       mean_cell(name + "misclosure chi-square, 1 degree of freedom",

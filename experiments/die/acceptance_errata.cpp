@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
+#include "alea/core/angle.hpp"
 #include "alea/die/paper_registration.hpp"
 #include "experiments/die/acceptance.hpp"
 #include "experiments/die/skewed_die.hpp"
@@ -16,8 +16,6 @@ using experiments::die::pose_error;
 using experiments::die::PoseError;
 using experiments::die::SkewedDie;
 using experiments::die::SkewedDieOptions;
-
-constexpr double deg = std::numbers::pi / 180;
 
 /// A misprint with the damage that the study's section 3 prints for it at 90 and 180 deg.
 struct Misprint {

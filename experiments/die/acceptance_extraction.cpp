@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "alea/core/angle.hpp"
 #include "alea/core/parallel.hpp"
 #include "alea/core/seed.hpp"
 #include "alea/die/closed_form.hpp"
@@ -18,7 +19,6 @@
 namespace alea::acceptance {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double edge_m = 0.5, range_m = 6, scanner_height_m = 1.6;
 
 /// How facets are taken out of the scans, and what die is scanned.
@@ -194,8 +194,8 @@ void report_rotation(const Extraction& extraction, const Limit& limit, const Opt
   if (runs.empty()) return;
   const Interval interval = bootstrap(runs, options.seed);
   report({extraction.name + ": rotation",
-          rms(runs, nullptr, 0) / degree,
-          {interval.low / degree, interval.high / degree},
+          rms(runs, nullptr, 0) / deg,
+          {interval.low / deg, interval.high / deg},
           limit,
           runs.size(),
           "deg",

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "alea/core/angle.hpp"
 #include "alea/core/parallel.hpp"
 #include "alea/die/closed_form.hpp"
 #include "alea/die/paper_registration.hpp"
@@ -22,7 +22,6 @@ using experiments::die::PoseError;
 using experiments::die::SkewedDie;
 using experiments::die::SkewedDieOptions;
 
-constexpr double deg = std::numbers::pi / 180;
 constexpr double nominal_edge_m = 0.5;
 
 RigidTransform by_rule(const SkewedDie& die, FrameRule rule) {

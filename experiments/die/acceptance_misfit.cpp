@@ -15,8 +15,7 @@ using experiments::die::EfficiencyCase;
 using experiments::die::pair_methods;
 using experiments::die::PairError;
 
-constexpr std::uint64_t own_trials = 2000;
-constexpr double chi_square_95 = 12.5916;  // six degrees of freedom
+constexpr std::uint64_t misfit_trials = 2000;
 
 /// Mean of a number over the trials, which is shown and not judged.
 void show(const std::string& name, const std::vector<AdjustmentTrial>& trials, std::size_t method,
@@ -31,13 +30,13 @@ void show(const std::string& name, const std::vector<AdjustmentTrial>& trials, s
 
 void report_setting(const std::string& what, const EfficiencyCase& setting, const Options& options,
                     const Report& report) {
-  const auto trials =
-      experiments::die::run_adjustment_trials(setting, options.seed, options.trials_or(own_trials));
+  const auto trials = experiments::die::run_adjustment_trials(setting, options.seed,
+                                                              options.trials_or(misfit_trials));
   for (std::size_t method = 1; method < pair_methods.size(); ++method) {
     const std::string name = fmt::format("{}, {}: ", what, to_string(pair_methods[method]));
     show(
         name + "inside the 95 % region", trials, method,
-        [](const PairError& e) { return e.nees <= chi_square_95 ? 1.0 : 0.0; }, report);
+        [](const PairError& e) { return e.nees <= chi_square_95_of_six ? 1.0 : 0.0; }, report);
     show(
         name + "NEES / 6", trials, method, [](const PairError& e) { return e.nees / 6; }, report);
     show(

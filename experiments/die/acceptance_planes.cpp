@@ -13,8 +13,8 @@
 namespace alea::acceptance {
 namespace {
 
-constexpr std::uint64_t own_trials = 10000;
-constexpr double step_rad = 4e-3, chi_square_95 = 12.5916;  // six degrees of freedom
+constexpr std::uint64_t plane_trials = 10000;
+constexpr double step_rad = 4e-3;
 
 /// Three walls of 0.8 m and a piece of floor about the origin, which both stations see.
 std::vector<Patch> patches() {
@@ -73,17 +73,17 @@ double nees_of(std::uint64_t seed, std::uint64_t trial) {
 }  // namespace
 
 void run_planes_only(const Options& options, const Report& report) {
-  std::vector<double> nees(options.trials_or(own_trials)), inside(nees.size());
+  std::vector<double> nees(options.trials_or(plane_trials)), inside(nees.size());
   parallel_chunks(nees.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
       nees[t] = nees_of(options.seed, t) / 6;
-      inside[t] = 6 * nees[t] <= chi_square_95 ? 1 : 0;
+      inside[t] = 6 * nees[t] <= chi_square_95_of_six ? 1 : 0;
     }
   });
   for (Cell cell :
        {mean_cell("planes only: NEES / 6", nees, within(1, 0.05)),
         mean_cell("planes only: inside the 95 % region", inside, within(0.95, 0.015))}) {
-    cell.judgement = options.judgement(own_trials);
+    cell.judgement = options.judgement(plane_trials);
     report(cell);
   }
 }

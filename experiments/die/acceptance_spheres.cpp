@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "alea/core/angle.hpp"
 #include "alea/core/parallel.hpp"
 #include "alea/evaluate/fisher_bound.hpp"
 #include "alea/simulate/scanner.hpp"
@@ -15,8 +16,6 @@
 namespace alea::acceptance {
 namespace {
 
-constexpr double deg = std::numbers::pi / 180;
-constexpr double chi_square_95 = 12.5916;  // six degrees of freedom
 constexpr double radius_m = 0.0725, ring_m = 4, height_m = 1.6, step_rad = 3e-4;
 
 /// Six spheres on a ring of 4 m, at heights that a tripod allows; the target point is the ring's
@@ -134,7 +133,7 @@ void report_method(double range_m, SphereFitMethod method, const std::vector<Err
   consistency.judgement = Judgement::shown;
   report(consistency);
   std::vector<double> inside;
-  for (const double square : nees) inside.push_back(6 * square <= chi_square_95 ? 1 : 0);
+  for (const double square : nees) inside.push_back(6 * square <= chi_square_95_of_six ? 1 : 0);
   Cell coverage = mean_cell(at + "inside the 95 % region", inside, within(0.95, 0.015));
   coverage.judgement = control ? Judgement::shown : Judgement::point;
   report(coverage);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "alea/core/angle.hpp"
 #include "alea/core/parallel.hpp"
 #include "alea/core/seed.hpp"
 #include "alea/die/adjustment.hpp"
@@ -24,7 +25,6 @@ using experiments::die::EfficiencyCase;
 using experiments::die::observe_pair;
 using experiments::die::ObservedPair;
 
-constexpr double deg = std::numbers::pi / 180;
 constexpr std::uint64_t own_faulty = 500, own_clean = 1000;
 
 enum class Fault { none, leaning, shifted };

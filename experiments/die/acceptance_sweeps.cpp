@@ -6,8 +6,8 @@
 #include <ctime>
 #include <filesystem>
 #include <functional>
-#include <numbers>
 
+#include "alea/core/angle.hpp"
 #include "alea/core/parallel.hpp"
 #include "experiments/engine/build_info.hpp"
 #include "experiments/engine/sweep_acceptance.hpp"
@@ -19,8 +19,6 @@ namespace {
 using experiments::SweepSpec;
 using experiments::TrialRow;
 using experiments::TrialStore;
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// A committed sweep with as many trials as asked for and these estimators.
 SweepSpec committed(const std::string& name, std::uint64_t trials,
@@ -186,8 +184,7 @@ void run_leak_curves(const Options& options, const Report& report) {
     for (std::uint64_t cell = 0; cell < spec.cells(); ++cell) {
       std::vector<double> angles;
       for (const auto& trial : rows[cell])
-        if (trial[e].verdict == "registered")
-          angles.push_back(trial[e].rotation_error_rad / degree);
+        if (trial[e].verdict == "registered") angles.push_back(trial[e].rotation_error_rad / deg);
       std::sort(angles.begin(), angles.end());
       const auto at = [&](double share) {
         return angles[static_cast<std::size_t>(share * static_cast<double>(angles.size() - 1) +

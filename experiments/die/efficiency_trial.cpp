@@ -14,7 +14,7 @@
 namespace alea::experiments::die {
 namespace {
 
-constexpr std::uint32_t experiment_number = 21;
+constexpr std::uint32_t efficiency_number = 21;
 
 Die draw_die(const EfficiencyCase& setting, std::uint64_t seed, std::uint64_t trial) {
   DieModel model;
@@ -24,7 +24,7 @@ Die draw_die(const EfficiencyCase& setting, std::uint64_t seed, std::uint64_t tr
   for (FacetShape& facet : model.facets) facet.bow_m = setting.bow_m;
   model.scene_from_die.translation.z() = setting.edge_m / 2;  // on the floor z = 0, 1 up
   return build_die(
-      with_random_shape(model, {setting.tilt_sd_rad, 0, 0}, seed, experiment_number, trial));
+      with_random_shape(model, {setting.tilt_sd_rad, 0, 0}, seed, efficiency_number, trial));
 }
 
 std::vector<RigidTransform> station_poses(const EfficiencyCase& setting) {
@@ -123,8 +123,8 @@ ObservedPair observe_pair(const EfficiencyCase& setting, std::uint64_t seed, std
   const auto poses = station_poses(setting);
   Scene scene;
   scene.dice.push_back(die);
-  const ScanResult master = observe(scene, setting, poses[0], {seed, experiment_number, trial, 0});
-  const ScanResult slave = observe(scene, setting, poses[1], {seed, experiment_number, trial, 1});
+  const ScanResult master = observe(scene, setting, poses[0], {seed, efficiency_number, trial, 0});
+  const ScanResult slave = observe(scene, setting, poses[1], {seed, efficiency_number, trial, 1});
   ObservedPair out;
   out.master = master.die;
   out.slave = slave.die;

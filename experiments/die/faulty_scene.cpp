@@ -4,14 +4,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "alea/core/angle.hpp"
 #include "alea/core/seed.hpp"
 #include "alea/simulate/scanner.hpp"
 
 namespace alea::experiments::die {
 namespace {
 
-constexpr std::uint32_t experiment_number = 25;
-constexpr double degree = std::numbers::pi / 180;
+constexpr std::uint32_t faulty_scene_number = 25;
 
 /// One scene drawn from its own stream.
 struct Trial {
@@ -22,14 +22,14 @@ struct Trial {
 };
 
 Trial draw(Fault fault, std::uint64_t seed, std::uint64_t number) {
-  Trial out{fault, RandomStream({seed, experiment_number, number, 0, Purpose::scene_layout}),
+  Trial out{fault, RandomStream({seed, faulty_scene_number, number, 0, Purpose::scene_layout}),
             0,     0,
             0,     {}};
   out.edge_m = 0.3 + 0.3 * out.random.uniform();
   out.range_m = (6 + 6 * out.random.uniform()) * out.edge_m + 1;
   out.step_rad = out.edge_m / out.range_m / (25 + 25 * out.random.uniform());
-  const double first = (30 + 30 * out.random.uniform()) * degree;
-  out.azimuth_rad = {first, first + (75 + 30 * out.random.uniform()) * degree};
+  const double first = (30 + 30 * out.random.uniform()) * deg;
+  out.azimuth_rad = {first, first + (75 + 30 * out.random.uniform()) * deg};
   if (fault == Fault::two_facets) out.azimuth_rad[1] = std::numbers::pi;  // straight at one side
   return out;
 }
@@ -50,7 +50,7 @@ DieModel draw_die(Trial& trial, std::uint32_t scan) {
     model.chirality = Chirality::counterclockwise;
   if (trial.fault == Fault::skewed)
     model.facets[static_cast<std::size_t>(up) - 1].tilt_u_rad =
-        (23 + 10 * trial.random.uniform()) * degree;
+        (23 + 10 * trial.random.uniform()) * deg;
   if (trial.fault == Fault::wrong_size) {
     const double share = trial.random.uniform();
     model.size_m *= trial.random.uniform() < 0.5 ? 0.55 + 0.2 * share : 1.3 + 0.4 * share;
@@ -110,7 +110,7 @@ Cloud scan(const Trial& trial, std::uint64_t seed, std::uint64_t number, std::ui
   Station station = aimed_station(pose, target, trial.step_rad * (room ? 1.4 : 1));
   station.scanner.beam_diameter_m = 0.004;
   Cloud cloud =
-      simulate_scan(build(trial, index), station, {seed, experiment_number, number, index});
+      simulate_scan(build(trial, index), station, {seed, faulty_scene_number, number, index});
   cloud.scanner_position = Eigen::Vector3d::Zero();
   return cloud;
 }

@@ -2,8 +2,8 @@
 
 #include <filesystem>
 #include <iterator>
-#include <numbers>
 
+#include "alea/core/angle.hpp"
 #include "alea/die/paper_registration.hpp"
 #include "alea/io/atomic_file.hpp"
 #include "experiments/die/figures.hpp"
@@ -11,8 +11,6 @@
 
 namespace alea::experiments::die {
 namespace {
-
-constexpr double deg = std::numbers::pi / 180;
 
 // One arrow: panel, what it is, its letter, from, to.
 void append_arrow(std::string& csv, const std::string& panel, const std::string& kind,

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "alea/core/angle.hpp"
 #include "alea/core/parallel.hpp"
 #include "alea/die/closed_form.hpp"
 #include "alea/die/ideal_observation.hpp"
@@ -13,8 +13,6 @@
 
 namespace alea::experiments::die {
 namespace {
-
-constexpr double deg = std::numbers::pi / 180;
 
 std::optional<RigidTransform> by_paper(const SkewedDie& die) {
   PaperRegistrationOptions options;

@@ -10,7 +10,7 @@
 namespace alea::experiments::die {
 namespace {
 
-constexpr std::uint32_t experiment_number = 20;
+constexpr std::uint32_t skewed_die_number = 20;
 
 RigidTransform station(double distance_m, double azimuth_rad, double height_m) {
   const Eigen::Vector3d position(distance_m * std::cos(azimuth_rad),
@@ -26,7 +26,7 @@ SkewedDie draw_skewed_die(const SkewedDieOptions& options, std::uint64_t seed,
   model.size_m.setConstant(options.edge_m);
   model.chirality = options.chirality;
   model = with_random_shape(model, {options.tilt_sd_rad, 0, options.size_sd_share}, seed,
-                            experiment_number, trial);
+                            skewed_die_number, trial);
   SkewedDie die;
   const auto planes = die_planes(model);
   for (int f = 0; f < 6; ++f) die.shape.facets[f] = planes[f];

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "alea/core/angle.hpp"
 #include "alea/core/error.hpp"
 #include "alea/core/seed.hpp"
 #include "alea/simulate/scene.hpp"
@@ -11,7 +12,6 @@
 namespace alea::experiments::die {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double scanner_height_m = 1.6;
 
 TiltKind tilt_kind_of(const std::string& word) {
@@ -124,14 +124,14 @@ DieCase die_case_of(const SweepSettings& settings) {
   out.edge_m = number_of(settings, "edge_m");
   out.range_m = number_of(settings, "range_m");
   out.step_rad = number_of(settings, "step_mrad") * 1e-3;
-  out.separation_rad = number_of(settings, "separation_deg") * degree;
+  out.separation_rad = number_of(settings, "separation_deg") * deg;
   out.noise = scaled_noise(number_of(settings, "range_noise_mm") * 1e-3);
-  out.tilt_rad = number_of(settings, "tilt_deg") * degree;
+  out.tilt_rad = number_of(settings, "tilt_deg") * deg;
   out.tilt_kind = tilt_kind_of(word_of(settings, "tilt_kind"));
   out.edge_radius_m = number_of(settings, "edge_radius_mm") * 1e-3;
   out.bow_m = number_of(settings, "bow_mm") * 1e-3;
   out.true_length = word_of(settings, "length") == "true";
-  out.tilt_prior_rad = number_of(settings, "tilt_prior_deg") * degree;
+  out.tilt_prior_rad = number_of(settings, "tilt_prior_deg") * deg;
   out.extraction = extraction_of(settings);
   const double first = std::numbers::pi / 4;
   out.scene_from_scan = {station_pose(out, first), station_pose(out, first + out.separation_rad)};

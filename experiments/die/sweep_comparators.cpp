@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "alea/core/angle.hpp"
 #include "alea/die/plane_match.hpp"
 #include "alea/simulate/scanner.hpp"
 #include "alea/sphere/sphere_registration.hpp"
@@ -12,7 +12,6 @@
 namespace alea::experiments::die {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double sphere_radius_m = 0.0725;
 // Numbers of the comparators' scans begin here, so that they share none with the die's.
 constexpr std::uint32_t first_sphere_scan = 100, first_plane_scan = 200;
@@ -22,8 +21,8 @@ std::vector<Eigen::Vector3d> sphere_places() {
   const std::array<double, 6> height_m{0.5, 1.1, 0.7, 1.3, 0.6, 0.9};
   std::vector<Eigen::Vector3d> places;
   for (std::size_t k = 0; k < azimuth_deg.size(); ++k)
-    places.emplace_back(4 * std::cos(azimuth_deg[k] * degree),
-                        4 * std::sin(azimuth_deg[k] * degree), height_m[k]);
+    places.emplace_back(4 * std::cos(azimuth_deg[k] * deg), 4 * std::sin(azimuth_deg[k] * deg),
+                        height_m[k]);
   return places;
 }
 
@@ -38,7 +37,7 @@ Patch patch_about(const Eigen::Vector3d& centre_m, const Eigen::Vector3d& u,
 
 /// An upright patch whose normal looks `heading_deg` from scene +y towards +x.
 Patch wall(const Eigen::Vector3d& centre_m, double heading_deg) {
-  const double heading = heading_deg * degree;
+  const double heading = heading_deg * deg;
   return patch_about(centre_m, {-std::cos(heading), std::sin(heading), 0}, Eigen::Vector3d::UnitZ(),
                      0.8);
 }

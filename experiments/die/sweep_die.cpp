@@ -135,9 +135,9 @@ class DieCell : public SweepCell {
   bool needs_facets_ = false, needs_paper_ = false;
 };
 
-std::unique_ptr<SweepCell> make_cell(const SweepSettings& settings,
-                                     const std::vector<std::string>& estimators,
-                                     std::uint64_t seed) {
+std::unique_ptr<SweepCell> make_die_cell(const SweepSettings& settings,
+                                         const std::vector<std::string>& estimators,
+                                         std::uint64_t seed) {
   return std::make_unique<DieCell>(settings, estimators, seed);
 }
 
@@ -151,7 +151,7 @@ SweepExperiment die_sweep() {
   for (const SweepEstimator& estimator : sweep_estimators())
     experiment.estimators.push_back(estimator.name);
   experiment.extra_columns = {"ring10_error_m", "bound_ring10_m"};
-  experiment.make_cell = make_cell;
+  experiment.make_cell = make_die_cell;
   return experiment;
 }
 

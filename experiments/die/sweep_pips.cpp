@@ -9,7 +9,7 @@
 namespace alea::experiments::die {
 namespace {
 
-constexpr std::uint32_t experiment_number = 41;
+constexpr std::uint32_t pips_number = 41;
 
 Result<PipTriple> by_likelihood(const alea::die::PipTrial& trial,
                                 const alea::die::PipTrialOptions& options) {
@@ -49,8 +49,8 @@ class PipCell : public SweepCell {
 
   std::vector<TrialRow> run(std::uint64_t trial) const override {
     const double start = cpu_s();
-    const auto images = alea::die::make_pip_trial(
-        options_, {seed_, experiment_number, trial, 0, Purpose::experiment});
+    const auto images =
+        alea::die::make_pip_trial(options_, {seed_, pips_number, trial, 0, Purpose::experiment});
     const double shared_s = cpu_s() - start;
     std::vector<TrialRow> rows;
     for (const std::string& estimator : estimators_) {
@@ -72,9 +72,9 @@ class PipCell : public SweepCell {
   alea::die::PipTrialOptions options_;
 };
 
-std::unique_ptr<SweepCell> make_cell(const SweepSettings& settings,
-                                     const std::vector<std::string>& estimators,
-                                     std::uint64_t seed) {
+std::unique_ptr<SweepCell> make_pips_cell(const SweepSettings& settings,
+                                          const std::vector<std::string>& estimators,
+                                          std::uint64_t seed) {
   return std::make_unique<PipCell>(settings, estimators, seed);
 }
 
@@ -93,7 +93,7 @@ SweepExperiment pip_sweep() {
   };
   experiment.estimators = {"chain", "chain_all_three", "likelihood"};
   experiment.extra_columns = {"right", "wrong"};
-  experiment.make_cell = make_cell;
+  experiment.make_cell = make_pips_cell;
   return experiment;
 }
 

@@ -12,7 +12,7 @@
 namespace alea::experiments::die {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 std::vector<PublishedScan> scans_of(const PublishedTables& tables, const std::string& dataset) {
   std::vector<PublishedScan> scans;

@@ -9,7 +9,7 @@
 namespace alea::experiments::die {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double between(RandomStream& stream, const std::array<double, 2>& bounds) {
   return std::lerp(bounds[0], bounds[1], stream.uniform());

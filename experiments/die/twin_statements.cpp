@@ -4,14 +4,12 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <numbers>
 
+#include "alea/core/angle.hpp"
 #include "experiments/die/statements.hpp"
 
 namespace alea::experiments::die {
 namespace {
-
-constexpr double deg = std::numbers::pi / 180;
 
 using TwinValue = std::function<std::optional<double>(const TwinOutcome&)>;
 
@@ -98,7 +96,7 @@ void add_inheritance_cell(const std::string& dataset, const std::vector<TwinOutc
   Cell cell = own_cell("dataset " + dataset,
                        "inherits the larger RMSE: union below the larger, share of the difference",
                        "", shares);
-  cell.printed = "0";
+  cell.printed = std::string("0");
   cell.verdict = cell.ours->low > 0.05 ? Verdict::differs : Verdict::agrees;
   cell.note = "a perfect registration inherits the pooled RMSE";
   cells.push_back(cell);

@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <functional>
-#include <numbers>
+
+#include "alea/core/angle.hpp"
 
 namespace alea::experiments::die {
 namespace {
-
-constexpr double deg = std::numbers::pi / 180;
 
 // Values (mm) of one check plane over the twins.
 using PlaneValue = std::function<std::optional<double>(const TwinOutcome&, std::size_t plane)>;

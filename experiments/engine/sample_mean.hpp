@@ -14,6 +14,9 @@ struct SampleMean {
   std::size_t n = 0;
 };
 
+/// What a squared error of six unknowns, weighted by its covariance, exceeds in 5 % of all trials.
+inline constexpr double chi_square_95_of_six = 12.5916;
+
 SampleMean mean_of(const std::vector<double>& numbers);
 
 /// A mean with its 95 % interval.

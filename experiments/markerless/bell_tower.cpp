@@ -9,7 +9,7 @@
 namespace alea::experiments::markerless {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double side_m = 3, wall_m = 0.3, height_m = 6, floor_m = 0.3;
 const double apothem_m = side_m * std::cos(pi / 6);
 
@@ -41,7 +41,7 @@ void add_wall(Scene& scene, int side, double width_m, double low_m, double high_
   add("lintel", -width_m / 2, width_m / 2, high_m, height_m);
 }
 
-void add_building(Scene& scene, bool bare) {
+void add_bell_tower(Scene& scene, bool bare) {
   for (int side = 0; side < 6; ++side) {
     if (side == 0 && !bare)
       add_wall(scene, side, 1.1, 0, 2.5);
@@ -176,7 +176,7 @@ Scene bell_tower(const TwinOptions& options) {
   RandomStream stations({options.layout, 6, 0, 0, Purpose::station});
   Scene scene;
   add_ground(scene);
-  add_building(scene, options.bare);
+  add_bell_tower(scene, options.bare);
   if (!options.bare) {
     add_indoor_clutter(scene, surroundings);
     add_surroundings(scene, surroundings);

@@ -9,7 +9,7 @@
 namespace alea::experiments::markerless {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Cylinder round(const std::string& id, double z_m, double height_m, double radius_m,
                double top_radius_m) {
@@ -24,7 +24,7 @@ Cylinder round(const std::string& id, double z_m, double height_m, double radius
 }
 
 /// Door and windows stand out of the mantle by their frames.
-void add_building(Scene& scene, bool bare) {
+void add_lighthouse(Scene& scene, bool bare) {
   scene.cylinders.push_back(round("tower", -1.5, 12.5, 1.9, 1.4));
   scene.cylinders.push_back(round("gallery", 11, 0.2, 2.0, 2.0));
   scene.cylinders.push_back(round("lantern", 11.2, 1.8, 0.9, 0.9));
@@ -139,7 +139,7 @@ Scene lighthouse(const TwinOptions& options) {
   const double downhill = between(surroundings, 0, 2 * pi);
   const Eigen::Vector2d slope = fall * Eigen::Vector2d(std::cos(downhill), std::sin(downhill));
   add_ground(scene, slope, options.bare, surroundings);
-  add_building(scene, options.bare);
+  add_lighthouse(scene, options.bare);
   if (!options.bare) add_surroundings(scene, slope, surroundings);
   add_stations(scene, options, slope, stations);
   return scene;

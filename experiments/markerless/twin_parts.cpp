@@ -7,7 +7,7 @@
 namespace alea::experiments::markerless {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double clearance_m(const BoundingBall& ball, const Eigen::Vector3d& place_m) {
   return (ball.centre_m - place_m).head<2>().norm() - ball.radius_m;

@@ -7,28 +7,18 @@
 #include <cmath>
 #include <numbers>
 
+#include "alea/core/angle.hpp"
 #include "alea/core/error.hpp"
 #include "alea/core/seed.hpp"
 #include "alea/die/ideal_observation.hpp"
 #include "experiments/die/skewed_die.hpp"
+#include "tests/die/skewed_observation.hpp"
 
 namespace alea {
 namespace {
 
-using experiments::die::draw_skewed_die;
 using experiments::die::pose_error;
 using experiments::die::SkewedDie;
-using experiments::die::SkewedDieOptions;
-
-constexpr double deg = std::numbers::pi / 180;
-
-SkewedDie skewed(double separation_deg, std::uint64_t trial, double tilt_deg = 1) {
-  SkewedDieOptions options;
-  options.tilt_sd_rad = tilt_deg * deg;
-  options.size_sd_share = 0.05;
-  options.separation_rad = separation_deg * deg;
-  return draw_skewed_die(options, 5, trial);
-}
 
 std::vector<AdjustmentScan> two_scans(const SkewedDie& die) {
   return {{die.master, {}}, {die.slave, {}}};
@@ -40,30 +30,6 @@ AdjustmentOptions free_with_edge(const SkewedDie& die) {
   const auto shared = shared_pips(die.master, die.slave);
   if (shared.size() == 2) options.edges = {{{shared[0], shared[1]}, die.shared_edge_m.value(), 0}};
   return options;
-}
-
-/// Covariance of a plausible fit: an offset ten times better known than the tilts.
-Eigen::Matrix3d plane_covariance(double scale) {
-  Eigen::Matrix3d c;
-  c << 4, 1, 0.02, 1, 1, 0.01, 0.02, 0.01, 0.01;
-  return scale * 1e-10 * c;
-}
-
-/// The observation with a random error drawn from each fit's covariance.
-ObservedDie noisy(const ObservedDie& die, RandomStream& stream) {
-  ObservedDie out = die;
-  for (int k = 0; k < 3; ++k) {
-    PlaneFit& fit = out.facets[k].fit;
-    fit.covariance = plane_covariance(1 + 3 * k);
-    const Eigen::Vector3d normal(stream.normal(), stream.normal(), stream.normal());
-    const Eigen::Vector3d abc = fit.covariance.llt().matrixL() * normal;
-    fit.plane.normal = (fit.plane.normal + fit.tangent * abc.head<2>()).normalized();
-    fit.centroid_m += abc(2) * fit.plane.normal;
-    fit.plane.offset_m = fit.plane.normal.dot(fit.centroid_m);
-    // The covariance refers to the tangent vectors before the turn; the difference is second order.
-    fit.tangent = tangent_basis(fit.plane.normal);
-  }
-  return out;
 }
 
 /// Levelled stations around a die at these azimuths, without noise but with a covariance.

@@ -7,9 +7,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "alea/core/angle.hpp"
 #include "alea/core/error.hpp"
 #include "alea/core/seed.hpp"
 #include "experiments/die/skewed_die.hpp"
+#include "tests/die/skewed_observation.hpp"
 
 namespace alea {
 namespace {
@@ -19,46 +21,10 @@ using experiments::die::pose_error;
 using experiments::die::SkewedDie;
 using experiments::die::SkewedDieOptions;
 
-constexpr double deg = std::numbers::pi / 180;
-
-SkewedDie skewed(double separation_deg, std::uint64_t trial, double tilt_deg = 1) {
-  SkewedDieOptions options;
-  options.tilt_sd_rad = tilt_deg * deg;
-  options.size_sd_share = 0.05;
-  options.separation_rad = separation_deg * deg;
-  return draw_skewed_die(options, 5, trial);
-}
-
 ClosedFormOptions with_edge(const SkewedDie& die) {
   ClosedFormOptions options;
   options.edge_m = die.shared_edge_m.value_or(0.5);
   return options;
-}
-
-/// A full covariance of a plausible fit: correlated tilts, an upper facet ten times worse in one.
-Eigen::Matrix3d plane_covariance(double scale) {
-  Eigen::Matrix3d c;
-  c << 4, 1, 0.02, 1, 1, 0.01, 0.02, 0.01, 0.01;
-  return scale * 1e-10 * c;
-}
-
-void set_covariances(ObservedDie& die) {
-  for (int k = 0; k < 3; ++k) die.facets[k].fit.covariance = plane_covariance(1 + 3 * k);
-}
-
-/// The observation with a random error drawn from each fit's covariance.
-ObservedDie noisy(const ObservedDie& die, RandomStream& stream) {
-  ObservedDie out = die;
-  for (ObservedFacet& facet : out.facets) {
-    const Eigen::Vector3d normal(stream.normal(), stream.normal(), stream.normal());
-    const Eigen::Vector3d abc = facet.fit.covariance.llt().matrixL() * normal;
-    Plane& plane = facet.fit.plane;
-    plane.normal = (plane.normal + facet.fit.tangent * abc.head<2>()).normalized();
-    plane.offset_m = plane.normal.dot(facet.fit.centroid_m) + abc(2);
-    facet.fit.centroid_m += abc(2) * plane.normal;
-    facet.fit.tangent = tangent_basis(plane.normal);
-  }
-  return out;
 }
 
 TEST(ClosedForm, IsExactForTwoAndThreeSharedFacetsWithoutNoise) {
@@ -114,6 +80,11 @@ struct NoiseCase {
   double edge_sd_m;
   bool shape_known;
 };
+
+void PrintTo(const NoiseCase& test, std::ostream* out) {
+  *out << test.separation_deg << " deg apart, edge known to " << test.edge_sd_m << " m, shape "
+       << (test.shape_known ? "known" : "unknown");
+}
 
 class ClosedFormCovariance : public ::testing::TestWithParam<NoiseCase> {};
 

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
+#include "alea/core/angle.hpp"
 #include "alea/core/error.hpp"
 #include "alea/core/seed.hpp"
 #include "alea/die/ideal_observation.hpp"
@@ -11,8 +10,6 @@
 
 namespace alea {
 namespace {
-
-constexpr double deg = std::numbers::pi / 180;
 
 ObservedDie seen(const DieShape& shape, const std::array<int, 3>& pips) {
   return observe_exactly(shape, pips, {rotation_exp({0.3, -0.8, 1.9}), {4, 5, 6}});

@@ -4,16 +4,14 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <numbers>
 #include <set>
 
+#include "alea/core/angle.hpp"
 #include "alea/core/error.hpp"
 #include "alea/die/ideal_observation.hpp"
 
 namespace alea {
 namespace {
-
-constexpr double deg = std::numbers::pi / 180;
 
 RigidTransform pose(int number) {
   return {rotation_exp({0.1 * number, -0.4, 0.9 + number}), {3.0 + number, -5, 1.5}};

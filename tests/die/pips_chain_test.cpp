@@ -8,25 +8,20 @@
 #include "alea/core/error.hpp"
 #include "alea/die/pip_layout.hpp"
 #include "experiments/die/pip_trial.hpp"
+#include "tests/die/quick_pips.hpp"
 
 namespace alea {
 namespace {
 
-StreamKey trial_key(std::uint64_t trial) {
+StreamKey chain_key(std::uint64_t trial) {
   return {21, 0, trial, 0, Purpose::test};
-}
-
-die::PipTrialOptions quick() {
-  die::PipTrialOptions options;
-  options.step_rad = 1e-3;
-  return options;
 }
 
 TEST(PipsChain, CountsTheSideFacetsAtSixMetresForEveryNumber) {
   int right = 0;
   constexpr int trials = 60;
   for (int t = 0; t < trials; ++t) {
-    const die::PipTrial trial = die::make_pip_trial(quick(), trial_key(t));
+    const die::PipTrial trial = die::make_pip_trial(quick_pips(), chain_key(t));
     for (std::size_t k = 0; k < 2; ++k)
       right += count_pips(trial.images[k]).count == trial.pips[k] ? 1 : 0;
   }
@@ -35,15 +30,15 @@ TEST(PipsChain, CountsTheSideFacetsAtSixMetresForEveryNumber) {
 }
 
 TEST(PipsChain, LightPipsOnDarkFacetsCountAsWell) {
-  die::PipTrialOptions options = quick();
+  die::PipTrialOptions options = quick_pips();
   options.background = 0.2;
   options.pip = 0.8;
-  const die::PipTrial trial = die::make_pip_trial(options, trial_key(1));
+  const die::PipTrial trial = die::make_pip_trial(options, chain_key(1));
   EXPECT_EQ(count_pips(trial.images[0]).count, trial.pips[0]);
 }
 
 TEST(PipsChain, CentresLieOnTheLattice) {
-  const die::PipTrial trial = die::make_pip_trial(quick(), trial_key(2));
+  const die::PipTrial trial = die::make_pip_trial(quick_pips(), chain_key(2));
   const PipChainResult result = count_pips(trial.images[0]);
   ASSERT_EQ(result.centres_m.size(), static_cast<std::size_t>(trial.pips[0]));
   for (const Eigen::Vector2d& centre : result.centres_m) {
@@ -55,7 +50,7 @@ TEST(PipsChain, CentresLieOnTheLattice) {
 }
 
 TEST(PipsChain, TheOrderOfPointsAndTheUnitOfIntensityDoNotMatter) {
-  const die::PipTrial trial = die::make_pip_trial(quick(), trial_key(3));
+  const die::PipTrial trial = die::make_pip_trial(quick_pips(), chain_key(3));
   FacetImageInput image = trial.images[0];
   const PipChainResult before = count_pips(image);
   std::reverse(image.uv_m.begin(), image.uv_m.end());
@@ -71,7 +66,7 @@ TEST(PipsChain, TheOrderOfPointsAndTheUnitOfIntensityDoNotMatter) {
 }
 
 TEST(PipsChain, StagesHaveOneShapeAndTheClustersCarryTheCount) {
-  const die::PipTrial trial = die::make_pip_trial(quick(), trial_key(4));
+  const die::PipTrial trial = die::make_pip_trial(quick_pips(), chain_key(4));
   const PipChainResult result = count_pips(trial.images[1]);
   const PipChainStages& s = result.stages;
   for (const GreyImage* image : {&s.raster, &s.smoothed, &s.binary, &s.edges, &s.clusters}) {

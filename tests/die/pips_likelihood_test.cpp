@@ -8,6 +8,7 @@
 
 #include "alea/core/error.hpp"
 #include "experiments/die/pip_trial.hpp"
+#include "tests/die/quick_pips.hpp"
 
 namespace alea {
 namespace {
@@ -16,20 +17,14 @@ struct Score {
   int right = 0, wrong = 0, refused = 0;
 };
 
-StreamKey trial_key(std::uint64_t trial) {
+StreamKey likelihood_key(std::uint64_t trial) {
   return {31, 0, trial, 0, Purpose::test};
-}
-
-die::PipTrialOptions quick() {
-  die::PipTrialOptions options;
-  options.step_rad = 1e-3;
-  return options;
 }
 
 Score score(const die::PipTrialOptions& options, int trials, const PipReaderOptions& reader = {}) {
   Score score;
   for (int t = 0; t < trials; ++t) {
-    const die::PipTrial trial = die::make_pip_trial(options, trial_key(t));
+    const die::PipTrial trial = die::make_pip_trial(options, likelihood_key(t));
     const auto reading = read_pips(trial.images, 1, reader);
     if (!reading)
       ++score.refused;
@@ -40,11 +35,11 @@ Score score(const die::PipTrialOptions& options, int trials, const PipReaderOpti
 }
 
 TEST(PipsLikelihood, ReadsEveryOrientationAtSixMetres) {
-  EXPECT_EQ(score(quick(), 60).right, 60);
+  EXPECT_EQ(score(quick_pips(), 60).right, 60);
 }
 
 TEST(PipsLikelihood, ReadsWeakNoisyPipsFarAwayAndIsNotWrongWhereItRefuses) {
-  die::PipTrialOptions options = quick();
+  die::PipTrialOptions options = quick_pips();
   options.range_m = 30;
   options.noise_over_contrast = 0.5;
   const Score far = score(options, 200);
@@ -54,14 +49,14 @@ TEST(PipsLikelihood, ReadsWeakNoisyPipsFarAwayAndIsNotWrongWhereItRefuses) {
 }
 
 TEST(PipsLikelihood, IntensityUnitsSignAndFalloffDoNotMatter) {
-  die::PipTrialOptions options = quick();
+  die::PipTrialOptions options = quick_pips();
   options.incidence_exponent = 1;
   options.noise_over_contrast = 0.1;
   EXPECT_EQ(score(options, 20).right, 20);
   std::swap(options.background, options.pip);
   EXPECT_EQ(score(options, 20).right, 20);
   for (const auto& [scale, shift] : {std::pair{65535.0F, 0.0F}, {255.0F, 0.0F}, {30.0F, -70.0F}}) {
-    die::PipTrial trial = die::make_pip_trial(quick(), trial_key(2));
+    die::PipTrial trial = die::make_pip_trial(quick_pips(), likelihood_key(2));
     for (FacetImageInput& image : trial.images)
       for (float& value : image.intensity) value = scale * value + shift;
     const auto reading = read_pips(trial.images, 1);
@@ -71,7 +66,7 @@ TEST(PipsLikelihood, IntensityUnitsSignAndFalloffDoNotMatter) {
 }
 
 TEST(PipsLikelihood, GlintsAndMissingValuesDoNotDisturb) {
-  die::PipTrial trial = die::make_pip_trial(quick(), trial_key(5));
+  die::PipTrial trial = die::make_pip_trial(quick_pips(), likelihood_key(5));
   for (FacetImageInput& image : trial.images)
     for (std::size_t i = 0; i < image.intensity.size(); i += 400) {
       image.intensity[i] = 1e6F;
@@ -85,22 +80,22 @@ TEST(PipsLikelihood, GlintsAndMissingValuesDoNotDisturb) {
 TEST(PipsLikelihood, OtherLatticesSizesAndTrimmedBordersAreRead) {
   for (const double offset : {0.22, 0.28})
     for (const double radius : {0.07, 0.11}) {
-      die::PipTrialOptions options = quick();
+      die::PipTrialOptions options = quick_pips();
       options.pip_offset = offset;
       options.pip_radius = radius;
       options.trim_m = 0.03;
       EXPECT_EQ(score(options, 15).right, 15) << offset << " " << radius;
     }
-  die::PipTrialOptions small = quick();
+  die::PipTrialOptions small = quick_pips();
   small.edge_m = 0.3;
   EXPECT_EQ(score(small, 20).right, 20);
 }
 
 TEST(PipsLikelihood, ABlankCubeIsUnreadable) {
-  die::PipTrialOptions options = quick();
+  die::PipTrialOptions options = quick_pips();
   options.pip = options.background;
   for (int t = 0; t < 40; ++t) {
-    const auto reading = read_pips(die::make_pip_trial(options, trial_key(t)).images, 1);
+    const auto reading = read_pips(die::make_pip_trial(options, likelihood_key(t)).images, 1);
     ASSERT_FALSE(reading);
     EXPECT_EQ(reading.refusal().code, RefusalCode::pips_unreadable);
   }
@@ -109,7 +104,7 @@ TEST(PipsLikelihood, ABlankCubeIsUnreadable) {
 TEST(PipsLikelihood, MarksThatAreNotPipsAreRefused) {
   RandomStream stream({32, 0, 0, 0, Purpose::test});
   for (int t = 0; t < 60; ++t) {
-    die::PipTrial trial = die::make_pip_trial(quick(), trial_key(t));
+    die::PipTrial trial = die::make_pip_trial(quick_pips(), likelihood_key(t));
     for (FacetImageInput& image : trial.images) {  // a few dark rectangles instead of pips
       std::vector<Eigen::AlignedBox2d> marks;
       for (int m = 0; m < 4; ++m) {
@@ -128,16 +123,16 @@ TEST(PipsLikelihood, MarksThatAreNotPipsAreRefused) {
 }
 
 TEST(PipsLikelihood, PipsThatSitABitOffAreStillPips) {
-  die::PipTrialOptions options = quick();
+  die::PipTrialOptions options = quick_pips();
   options.frame_jitter_m = 0.008;
   EXPECT_EQ(score(options, 20).right, 20);
 }
 
 TEST(PipsLikelihood, OneFacetThatContradictsTheOthersIsRefused) {
   for (int t = 0; t < 40; ++t) {
-    const die::PipTrial die_a = die::make_pip_trial(quick(), trial_key(t));
+    const die::PipTrial die_a = die::make_pip_trial(quick_pips(), likelihood_key(t));
     die::PipTrial mixed = die_a;
-    const die::PipTrial die_b = die::make_pip_trial(quick(), trial_key(t + 1000));
+    const die::PipTrial die_b = die::make_pip_trial(quick_pips(), likelihood_key(t + 1000));
     mixed.images[1] = die_b.images[1];
     const PipTriple shown{die_a.pips[0], die_b.pips[1], die_a.pips[2]};
     const auto reading = read_pips(mixed.images, 1, {.chirality = std::nullopt});
@@ -147,10 +142,10 @@ TEST(PipsLikelihood, OneFacetThatContradictsTheOthersIsRefused) {
 }
 
 TEST(PipsLikelihood, TheHandIsReadEvenWhereItIsNotTheExpectedOne) {
-  die::PipTrialOptions options = quick();
-  const auto right = read_pips(die::make_pip_trial(options, trial_key(0)).images, 1);
+  die::PipTrialOptions options = quick_pips();
+  const auto right = read_pips(die::make_pip_trial(options, likelihood_key(0)).images, 1);
   options.chirality = Chirality::counterclockwise;
-  const die::PipTrial trial = die::make_pip_trial(options, trial_key(1));
+  const die::PipTrial trial = die::make_pip_trial(options, likelihood_key(1));
   const auto other = read_pips(trial.images, 1);
   ASSERT_TRUE(right && other);
   EXPECT_EQ(other->pips, trial.pips);
@@ -160,7 +155,7 @@ TEST(PipsLikelihood, TheHandIsReadEvenWhereItIsNotTheExpectedOne) {
 }
 
 TEST(PipsLikelihood, FacetsInTheOtherOrderGiveTheSameReading) {
-  const die::PipTrial trial = die::make_pip_trial(quick(), trial_key(7));
+  const die::PipTrial trial = die::make_pip_trial(quick_pips(), likelihood_key(7));
   const std::array<FacetImageInput, 3> swapped{trial.images[1], trial.images[0], trial.images[2]};
   const auto reading = read_pips(swapped, -1);
   ASSERT_TRUE(reading);
@@ -169,7 +164,7 @@ TEST(PipsLikelihood, FacetsInTheOtherOrderGiveTheSameReading) {
 }
 
 TEST(PipsLikelihood, TheOrderOfPointsDoesNotChangeABit) {
-  die::PipTrial trial = die::make_pip_trial(quick(), trial_key(8));
+  die::PipTrial trial = die::make_pip_trial(quick_pips(), likelihood_key(8));
   const auto before = read_pips(trial.images, 1);
   for (FacetImageInput& image : trial.images) {
     std::reverse(image.uv_m.begin(), image.uv_m.end());
@@ -182,7 +177,7 @@ TEST(PipsLikelihood, TheOrderOfPointsDoesNotChangeABit) {
 }
 
 TEST(PipsLikelihood, MisuseIsAnError) {
-  const die::PipTrial trial = die::make_pip_trial(quick(), trial_key(9));
+  const die::PipTrial trial = die::make_pip_trial(quick_pips(), likelihood_key(9));
   EXPECT_THROW(read_pips(trial.images, 0), Error);
   std::array<FacetImageInput, 3> images = trial.images;
   images[2].edge_v_m = 0;

@@ -36,6 +36,15 @@ inline std::string write_file(const alea::testing::TemporaryFolder& folder, cons
   return folder.file(name);
 }
 
+inline SweepSpec spec_of(const std::string& text) {
+  const alea::testing::TemporaryFolder folder;
+  return load_sweep(write_file(folder, text), false);
+}
+
+inline SweepSpec small_spec() {
+  return spec_of(small_sweep());
+}
+
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
   return text.replace(text.find(from), from.size(), to);
 }

@@ -16,15 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 using alea::testing::TemporaryFolder;
 using ::testing::HasSubstr;
-
-SweepSpec spec_of(const std::string& text) {
-  const TemporaryFolder folder;
-  return load_sweep(testing::write_file(folder, text), false);
-}
-
-SweepSpec small_spec() {
-  return spec_of(testing::small_sweep());
-}
+using testing::small_spec;
+using testing::spec_of;
 
 void run(const fs::path& folder, const Shard& shard = {}, const SweepRunOptions& options = {},
          const SweepSpec& spec = small_spec()) {

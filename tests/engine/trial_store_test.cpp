@@ -16,11 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using alea::testing::TemporaryFolder;
 using ::testing::HasSubstr;
-
-SweepSpec small_spec() {
-  const TemporaryFolder folder;
-  return load_sweep(testing::write_file(folder, testing::small_sweep()), false);
-}
+using testing::small_spec;
 
 std::vector<TrialRow> rows_of(double value) {
   std::vector<TrialRow> rows(2);

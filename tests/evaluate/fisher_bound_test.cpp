@@ -6,13 +6,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "alea/core/angle.hpp"
 #include "alea/core/error.hpp"
 #include "alea/evaluate/fisher_information.hpp"
 
 namespace {
 
 using namespace alea;
-constexpr double deg = std::numbers::pi / 180;
 
 DieBoundCase die_case(double edge_m, double range_m, bool shape_known) {
   DieBoundCase geometry;

@@ -5,14 +5,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "alea/core/angle.hpp"
 #include "alea/core/error.hpp"
 #include "alea/core/seed.hpp"
 #include "alea/simulate/scanner.hpp"
 
 namespace alea {
 namespace {
-
-constexpr double deg = std::numbers::pi / 180;
 
 /// Variance of a tile as chance makes it: a chi-square of so many freedoms (Wilson and Hilferty).
 double scattered(double variance, double freedoms, double normal) {

@@ -5,8 +5,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <fstream>
-#include <numbers>
 
+#include "alea/core/angle.hpp"
 #include "alea/core/error.hpp"
 #include "alea/evaluate/die_positions.hpp"
 #include "alea/evaluate/error_map.hpp"
@@ -18,8 +18,6 @@
 
 namespace alea {
 namespace {
-
-constexpr double deg = std::numbers::pi / 180;
 
 /// The geometry of the bound: a cube on the floor, two stations 45 deg off its facets.
 Scene bound_scene(double edge_m, double range_m, double step_rad = 3e-4) {

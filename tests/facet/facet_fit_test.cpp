@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "alea/plane/plane_detector.hpp"
+#include "tests/facet/angle_between.hpp"
 #include "tests/support/die_scan.hpp"
 
 namespace alea {
@@ -15,10 +16,6 @@ namespace {
 using test::die_facets_of;
 using test::DieScan;
 using test::scan_die;
-
-double angle_rad(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 FacetFitOptions at_origin() {
   FacetFitOptions options;

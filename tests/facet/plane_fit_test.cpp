@@ -9,6 +9,7 @@
 
 #include "alea/core/error.hpp"
 #include "alea/core/seed.hpp"
+#include "tests/facet/angle_between.hpp"
 
 namespace alea {
 namespace {
@@ -68,10 +69,6 @@ PlaneFitOptions along_ray() {
   PlaneFitOptions options;
   options.noise = without_pointing();
   return options;
-}
-
-double angle_rad(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
 TEST(PlaneFit, NoiseFreePointsGiveThePlaneToRounding) {

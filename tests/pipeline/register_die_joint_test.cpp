@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <numbers>
 
+#include "alea/core/angle.hpp"
 #include "alea/pipeline/calibrate_shape.hpp"
 #include "alea/pipeline/register_die.hpp"
+#include "tests/pipeline/with_edge.hpp"
 #include "tests/support/die_scenes.hpp"
 
 namespace alea {
@@ -15,17 +17,9 @@ using testing::scan_twice;
 using testing::TwoScans;
 using testing::TwoStationCase;
 
-constexpr double deg = std::numbers::pi / 180;
-
 bool warns(const Registration& result, const std::string& code) {
   return std::any_of(result.warnings.begin(), result.warnings.end(),
                      [&](const std::string& warning) { return warning.starts_with(code + ":"); });
-}
-
-DieRegistrationOptions with_edge(double edge_m) {
-  DieRegistrationOptions options;
-  options.edge_m = edge_m;
-  return options;
 }
 
 /// The master and slaves at these angles from it.

@@ -9,6 +9,7 @@
 #include "alea/core/error.hpp"
 #include "alea/core/parallel.hpp"
 #include "alea/core/seed.hpp"
+#include "tests/pipeline/with_edge.hpp"
 #include "tests/support/die_scenes.hpp"
 
 namespace alea {
@@ -31,12 +32,6 @@ void expect_close_to_truth(const Registration& result, const TwoScans& scans) {
   ASSERT_TRUE(result.covariance);
   // The 99.99 % point of chi-square with 6 degrees of freedom is 27.9; the noise of one fixed seed.
   EXPECT_LT(normalised_error(result, scans), 27.9);
-}
-
-DieRegistrationOptions with_edge(double edge_m) {
-  DieRegistrationOptions options;
-  options.edge_m = edge_m;
-  return options;
 }
 
 Cloud shuffled(const Cloud& cloud) {

@@ -5,14 +5,13 @@
 #include <numbers>
 #include <set>
 
+#include "alea/core/angle.hpp"
 #include "alea/core/plane.hpp"
 #include "alea/simulate/scanner.hpp"
 #include "tests/support/silent_scanner.hpp"
 
 namespace alea {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 using testing::silent;
 
@@ -68,7 +67,7 @@ double range_error(const Eigen::Vector3d& p, const PointTruth& truth) {
 }
 
 TEST(ScanNoise, RangeNoiseIsAlongTheRayWhateverTheIncidence) {
-  for (const double incidence : {0.0, 60 * degree, 80 * degree}) {
+  for (const double incidence : {0.0, 60 * deg, 80 * deg}) {
     WallView view = wall_view(incidence);
     view.station.scanner.noise.range_noise_m = 0.002;
     const SimulatedScan scan = simulate_scan_with_truth(view.scene, view.station, {2, 0, 1, 0});
@@ -80,7 +79,7 @@ TEST(ScanNoise, RangeNoiseIsAlongTheRayWhateverTheIncidence) {
 }
 
 TEST(ScanNoise, TheGrazingTermGrowsWithTheSineAlongTheNormal) {
-  WallView view = wall_view(70 * degree);
+  WallView view = wall_view(70 * deg);
   view.station.scanner.noise.grazing_m = 0.001;
   const SimulatedScan scan = simulate_scan_with_truth(view.scene, view.station, {2, 0, 2, 0});
   const Plane wall = plane_of(view.scene.patches[0]);
@@ -99,7 +98,7 @@ TEST(ScanNoise, TheGrazingTermGrowsWithTheSineAlongTheNormal) {
 }
 
 TEST(ScanNoise, SurfaceRoughnessIsAlongTheNormalWhateverTheIncidence) {
-  for (const double incidence : {20 * degree, 75 * degree}) {
+  for (const double incidence : {20 * deg, 75 * deg}) {
     WallView view = wall_view(incidence);
     view.station.scanner.noise.surface_m = 0.0008;
     const SimulatedScan scan = simulate_scan_with_truth(view.scene, view.station, {2, 0, 3, 0});
@@ -112,7 +111,7 @@ TEST(ScanNoise, SurfaceRoughnessIsAlongTheNormalWhateverTheIncidence) {
 }
 
 TEST(ScanNoise, AngularNoiseTurnsTheBeamAndKeepsTheReportedDirection) {
-  WallView view = wall_view(60 * degree);
+  WallView view = wall_view(60 * deg);
   const double sd = 2e-4;
   view.station.scanner.noise.angular_noise_rad = sd;
   const SimulatedScan scan = simulate_scan_with_truth(view.scene, view.station, {2, 0, 4, 0});
@@ -153,7 +152,7 @@ TEST(ScanNoise, IntensityNoiseHasItsStandardDeviation) {
 // Every switch by itself: a cause adds what it adds alone, whatever else is on.
 TEST(ScanNoise, CausesAddUpAndDoNotDisturbEachOther) {
   const auto errors = [](const NoiseModel& noise, double intensity_noise) {
-    WallView view = wall_view(50 * degree, 0.01);
+    WallView view = wall_view(50 * deg, 0.01);
     view.station.scanner.noise = noise;
     view.station.scanner.intensity_noise = intensity_noise;
     const SimulatedScan scan = simulate_scan_with_truth(view.scene, view.station, {2, 0, 6, 0});

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "alea/checkerboard/board_precision.hpp"
+#include "alea/core/median.hpp"
 
 namespace alea {
 namespace {
@@ -13,13 +14,6 @@ using Row = BoardRow;
 using Matrix = BoardFit::Covariance;
 
 using Sample = BoardSample;
-
-double median(std::vector<double>& values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 class Fitter {
  public:

@@ -6,15 +6,10 @@
 #include <cmath>
 
 #include "alea/cloud/spatial_order.hpp"
+#include "alea/core/median.hpp"
 
 namespace alea {
 namespace {
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Distances along the ray and where the ray meets the plane.
 class RayResiduals {

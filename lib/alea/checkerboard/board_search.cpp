@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "alea/core/angle.hpp"
 #include "alea/core/parallel.hpp"
 
 namespace alea {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// Log-likelihood ratio of one point. Capped: on data without noise half a board, whose two cells
 /// are right to the last point, would win over the whole one on a raster a little off; the rest
@@ -113,8 +111,8 @@ Grid make_grid(const BoardSpec& board, const BoardSearchOptions& options) {
   const double reach_m = options.radius_m + 0.5 * board.side_m() + grid.pixel_m;
   grid.size_px = 2 * static_cast<int>(std::ceil(reach_m / grid.pixel_m)) + 1;
   grid.half_m = 0.5 * grid.size_px * grid.pixel_m;
-  const double range_rad = (board.square() ? 90 : 180) * degree;
-  const double step_rad = std::min(3 * degree, 0.4 * board.cell_m / half_diagonal_m);
+  const double range_rad = (board.square() ? 90 : 180) * deg;
+  const double step_rad = std::min(3 * deg, 0.4 * board.cell_m / half_diagonal_m);
   grid.angles = static_cast<int>(std::ceil(range_rad / step_rad));
   grid.angle_step_rad = range_rad / grid.angles;
   return grid;
@@ -128,7 +126,7 @@ bool sign_is_free(const BoardSpec& board) {
 /// A negative correlation is a positive one of the board turned by a quarter (square) or a half.
 BoardCandidate with_positive_sign(const BoardSpec& board, BoardCandidate candidate) {
   if (candidate.correlation < 0 && sign_is_free(board)) {
-    candidate.pose.angle_rad += (board.square() ? 90 : 180) * degree;
+    candidate.pose.angle_rad += (board.square() ? 90 : 180) * deg;
     candidate.correlation = -candidate.correlation;
   }
   return candidate;

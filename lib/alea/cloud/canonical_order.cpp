@@ -8,13 +8,10 @@
 #include <tuple>
 #include <utility>
 
+#include "alea/cloud/attribute.hpp"
+
 namespace alea {
 namespace {
-
-template <typename T>
-T value_at(const std::vector<T>& values, std::uint32_t i) {
-  return values.empty() ? T{} : values[i];
-}
 
 /// Everything but the position, compared only where two positions are equal.
 bool rest_before(const Cloud& cloud, std::uint32_t a, std::uint32_t b) {

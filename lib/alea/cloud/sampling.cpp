@@ -11,7 +11,7 @@
 namespace alea {
 namespace {
 
-std::uint64_t mixed(std::uint64_t value) {  // the finaliser of SplitMix64
+std::uint64_t split_mixed(std::uint64_t value) {  // the finaliser of SplitMix64
   value = (value ^ value >> 30) * 0xBF58476D1CE4E5B9ull;
   value = (value ^ value >> 27) * 0x94D049BB133111EBull;
   return value ^ value >> 31;
@@ -19,8 +19,8 @@ std::uint64_t mixed(std::uint64_t value) {  // the finaliser of SplitMix64
 
 /// A random number that belongs to a place in space, so that the order of the points has no part.
 std::uint64_t draw(const Eigen::Vector3d& p, std::uint64_t seed) {
-  std::uint64_t value = mixed(seed + 0x9E3779B97F4A7C15ull);
-  for (int i = 0; i < 3; ++i) value = mixed(value ^ std::bit_cast<std::uint64_t>(p[i] + 0.0));
+  std::uint64_t value = split_mixed(seed + 0x9E3779B97F4A7C15ull);
+  for (int i = 0; i < 3; ++i) value = split_mixed(value ^ std::bit_cast<std::uint64_t>(p[i] + 0.0));
   return value;
 }
 

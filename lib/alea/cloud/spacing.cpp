@@ -17,7 +17,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t sample_size = 1000;
 
-std::uint64_t mixed(std::uint64_t value) {
+std::uint64_t murmur_mixed(std::uint64_t value) {
   value ^= value >> 33;
   value *= 0xff51afd7ed558ccdULL;
   value ^= value >> 33;
@@ -27,13 +27,14 @@ std::uint64_t mixed(std::uint64_t value) {
 
 std::uint64_t hash_of(const Eigen::Vector3d& p) {
   std::uint64_t hash = 0;
-  for (const double value : p) hash = mixed(hash + std::bit_cast<std::uint64_t>(value));
+  for (const double value : p) hash = murmur_mixed(hash + std::bit_cast<std::uint64_t>(value));
   return hash;
 }
 
 std::uint64_t hash_of(const std::array<std::int64_t, 3>& cell) {
   std::uint64_t hash = 0;
-  for (const std::int64_t value : cell) hash = mixed(hash + static_cast<std::uint64_t>(value));
+  for (const std::int64_t value : cell)
+    hash = murmur_mixed(hash + static_cast<std::uint64_t>(value));
   return hash;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "alea/cloud/attribute.hpp"
 #include "alea/core/parallel.hpp"
 
 namespace alea {
@@ -25,11 +26,6 @@ struct Place {
   std::uint64_t cell;
   std::uint32_t index;
 };
-
-template <typename T>
-T value_at(const std::vector<T>& values, std::uint32_t i) {
-  return values.empty() ? T{} : values[i];
-}
 
 bool coordinates_before(const Cloud& cloud, std::uint32_t a, std::uint32_t b) {
   const auto key = [&cloud](std::uint32_t i) {

@@ -12,7 +12,7 @@ namespace {
 
 // Each step squares the error of the start where the shape is exact; against a prior the error
 // falls by the size of the tilts.
-constexpr int steps = 6;
+constexpr int shape_steps = 6;
 constexpr int poses = 12;   ///< unknowns of the two poses
 constexpr int shapes = 18;  ///< unknowns of the shape, where it is uncertain
 
@@ -121,7 +121,7 @@ FacetAdjustment adjust_to_shape(const ObservedDie& master, const ObservedDie& sl
   const std::array<Plane, 6> planes = planes_of(problem.nominal);
   state.scan_from_die = {place_shape(master, planes), place_shape(slave, planes)};
   LeastSquares solution;
-  for (int step = 0; step < steps; ++step) {
+  for (int step = 0; step < shape_steps; ++step) {
     solution = solve_misclosures(misclosures_at(problem, state));
     for (int scan = 0; scan < 2; ++scan)
       state.scan_from_die[scan] =

@@ -41,12 +41,13 @@ ShapePrior prior_about(const DieShape& shape) {
 }
 
 /// A corner of three departed facets and its derivative by all departures.
-struct Corner {
+struct CornerByDeparture {
   Eigen::Vector3d point_m;
   Eigen::Matrix<double, 3, 18> by_departure;
 };
 
-Corner corner_of(const std::array<DepartedFacet, 6>& facets, const std::array<int, 3>& pips) {
+CornerByDeparture corner_of(const std::array<DepartedFacet, 6>& facets,
+                            const std::array<int, 3>& pips) {
   Eigen::Matrix3d normals;
   Eigen::Vector3d offsets;
   for (int k = 0; k < 3; ++k) {
@@ -55,7 +56,7 @@ Corner corner_of(const std::array<DepartedFacet, 6>& facets, const std::array<in
     offsets[k] = plane.offset_m;
   }
   const Eigen::PartialPivLU<Eigen::Matrix3d> solver(normals);
-  Corner corner{solver.solve(offsets), Eigen::Matrix<double, 3, 18>::Zero()};
+  CornerByDeparture corner{solver.solve(offsets), Eigen::Matrix<double, 3, 18>::Zero()};
   Eigen::Matrix<double, 3, 18> shift = Eigen::Matrix<double, 3, 18>::Zero();
   for (int k = 0; k < 3; ++k) {
     const DepartedFacet& facet = facets[pips[k] - 1];
@@ -147,8 +148,9 @@ std::array<DepartedFacet, 6> departed_facets(const ShapePrior& prior,
 
 EdgeByShape edge_of(const std::array<DepartedFacet, 6>& facets, const EdgeName& edge) {
   const int end = 4 - die_axis(edge.first_pips) - die_axis(edge.second_pips);
-  const Corner from = corner_of(facets, {edge.first_pips, edge.second_pips, end});
-  const Corner to = corner_of(facets, {edge.first_pips, edge.second_pips, opposite_pips(end)});
+  const CornerByDeparture from = corner_of(facets, {edge.first_pips, edge.second_pips, end});
+  const CornerByDeparture to =
+      corner_of(facets, {edge.first_pips, edge.second_pips, opposite_pips(end)});
   const Eigen::Vector3d apart = to.point_m - from.point_m;
   return {apart.norm(), apart.normalized().transpose() * (to.by_departure - from.by_departure)};
 }

@@ -10,18 +10,18 @@
 namespace alea {
 namespace {
 
-constexpr int steps = 3;  // each squares the error of the start, which is that of the fits
+constexpr int shared_steps = 3;  // each squares the error of the start, which is that of the fits
 
 /// A corner and its derivatives by a, b, c of its three planes in the order of the facets.
-struct Corner {
+struct CornerByPlanes {
   Eigen::Vector3d point_m;
   Eigen::Matrix<double, 3, 9> by_planes;
 };
 
-Corner corner_of(const ObservedDie& die) {
+CornerByPlanes corner_of(const ObservedDie& die) {
   const auto assembly = assemble_corner(planes_of(die));
   if (!assembly) throw usage_error("closed form: three facets have no common corner");
-  Corner corner;
+  CornerByPlanes corner;
   corner.point_m = assembly->corner_m;
   Eigen::Matrix3d normals;
   Eigen::Matrix<double, 3, 9> offsets = Eigen::Matrix<double, 3, 9>::Zero();
@@ -45,7 +45,7 @@ struct Pair {
   const ObservedDie& slave;
   std::vector<int> shared;
   std::optional<EdgeLength> edge;
-  Corner master_corner, slave_corner;
+  CornerByPlanes master_corner, slave_corner;
   Eigen::Vector3d along;  ///< unit, master frame: from the master's corner to the slave's
 };
 
@@ -128,7 +128,7 @@ FacetAdjustment adjust_shared_facets(const ObservedDie& master, const ObservedDi
   result.master_from_slave = start(pair);
   result.translation_by_edge = pair.along;
   result.freedom = pair.edge ? 1 : 3;
-  for (int step = 0; step < steps; ++step) {
+  for (int step = 0; step < shared_steps; ++step) {
     const LeastSquares solution = solve_misclosures(misclosures_at(pair, result.master_from_slave));
     result.master_from_slave =
         perturb_left(result.master_from_slave, solution.correction, Eigen::Vector3d::Zero());

@@ -11,7 +11,7 @@ namespace alea {
 namespace {
 
 // A raster of more cells than this (a plane of kilometres) gets wider ones.
-constexpr double most_cells = 1 << 24;
+constexpr double most_grid_cells = 1 << 24;
 constexpr std::uint32_t outside = 0xffffffffu;
 
 /// The box of a master region in its plane, divided into square cells; in the master frame.
@@ -37,8 +37,8 @@ Raster raster_of(const Cloud& master, const PlaneRegion& region, double cell_m) 
     high = high.cwiseMax(at);
   }
   const Eigen::Vector2d size = high - low;
-  const double cell =
-      std::max(cell_m, std::sqrt(size.prod() / most_cells) + size.maxCoeff() / most_cells);
+  const double cell = std::max(
+      cell_m, std::sqrt(size.prod() / most_grid_cells) + size.maxCoeff() / most_grid_cells);
   Raster out;
   out.cells_from_xyz = along / cell;
   // Cells keep their place relative to the centroid, whichever point is outermost.

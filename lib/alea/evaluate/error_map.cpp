@@ -7,7 +7,7 @@
 namespace alea {
 namespace {
 
-constexpr int most_cells = 200;
+constexpr int most_map_cells = 200;
 constexpr double free_field_margin_m = 2;
 
 Eigen::AlignedBox2d extent_of(const Scene& scene) {
@@ -50,7 +50,8 @@ Eigen::Vector3d MapArea::at(int column, int row) const {
 
 MapArea area_of(const Scene& scene, double height_m, double cell_m) {
   const Eigen::AlignedBox2d box = extent_of(scene);
-  return {box.min(), box.max(), height_m, std::max(cell_m, box.sizes().maxCoeff() / most_cells)};
+  return {box.min(), box.max(), height_m,
+          std::max(cell_m, box.sizes().maxCoeff() / most_map_cells)};
 }
 
 double ErrorMap::root_mean_square_m() const {

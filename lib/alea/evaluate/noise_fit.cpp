@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 
+#include "alea/core/angle.hpp"
 #include "alea/evaluate/noise_regression.hpp"
 
 namespace alea {
@@ -39,7 +39,6 @@ void describe_spread(const std::vector<NoiseTile>& tiles, NoiseEstimate& out) {
 }
 
 Refusal not_observable(const std::vector<std::string>& names, const NoiseEstimate& spread) {
-  constexpr double deg = 180 / std::numbers::pi;
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
   return {RefusalCode::unobservable,
@@ -47,7 +46,8 @@ Refusal not_observable(const std::vector<std::string>& names, const NoiseEstimat
                       "incidence angles of {:.0f} to {:.0f} deg: scan planes that spread more, or "
                       "fix a term that is known",
                       list, spread.least_range_m, spread.largest_range_m,
-                      spread.least_incidence_rad * deg, spread.largest_incidence_rad * deg)};
+                      spread.least_incidence_rad * deg_per_rad,
+                      spread.largest_incidence_rad * deg_per_rad)};
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "alea/core/median.hpp"
+
 namespace alea {
 namespace {
 
@@ -18,12 +20,6 @@ Eigen::Vector4d regressors(const NoiseTile& tile) {
 
 double freedoms(const NoiseTile& tile) {
   return static_cast<double>(tile.points) - 3;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// State of the iteration. `theta`: variances of a unit of each regressor.

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "alea/core/error.hpp"
+#include "alea/core/median.hpp"
 #include "alea/core/parallel.hpp"
 
 namespace alea {
@@ -34,12 +35,6 @@ TilePlane plane_through(const std::vector<Eigen::Vector3d>& points) {
   plane.flat = spectrum.eigenvalues()[1] > least_slenderness * spectrum.eigenvalues()[2] &&
                spectrum.eigenvalues()[0] < 0.25 * spectrum.eigenvalues()[1];
   return plane;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Points within so many robust standard deviations of the plane.

@@ -1,15 +1,14 @@
 #include "alea/evaluate/plan_file.hpp"
 
 #include <cmath>
-#include <numbers>
 
+#include "alea/core/angle.hpp"
 #include "alea/io/toml_table.hpp"
 
 namespace alea {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
-constexpr double arc_second = degree / 3600;
+constexpr double arc_second = deg / 3600;
 
 void read_assumptions(const TomlTable& table, PlanAssumptions& out) {
   out.shape_known = table.choice("shape", 0, {"free", "known"}) == 1;
@@ -48,7 +47,7 @@ void read_area(const TomlTable& table, const Scene& scene, MapArea& area) {
 
 std::vector<double> turns(double step_deg) {
   std::vector<double> out;
-  for (double turn = 0; turn < 90 - 1e-9; turn += step_deg) out.push_back(turn * degree);
+  for (double turn = 0; turn < 90 - 1e-9; turn += step_deg) out.push_back(turn * deg);
   return out;
 }
 

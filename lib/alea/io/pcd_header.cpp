@@ -15,9 +15,9 @@ namespace {
 // Values of one point: each takes memory before a point is read.
 constexpr std::size_t value_limit = 1000000;
 
-class Parser {
+class PcdParser {
  public:
-  Parser(const std::string& path, std::string_view bytes) : path_(path), bytes_(bytes) {}
+  PcdParser(const std::string& path, std::string_view bytes) : path_(path), bytes_(bytes) {}
 
   PcdHeader parse() {
     for (bool done = false; !done;) {
@@ -180,7 +180,7 @@ std::size_t PcdHeader::record_size() const {
 }
 
 PcdHeader parse_pcd_header(const std::string& path, std::string_view bytes) {
-  return Parser(path, bytes).parse();
+  return PcdParser(path, bytes).parse();
 }
 
 }  // namespace alea

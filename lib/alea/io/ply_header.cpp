@@ -12,9 +12,9 @@
 namespace alea {
 namespace {
 
-class Parser {
+class PlyParser {
  public:
-  Parser(const std::string& path, std::string_view bytes) : path_(path), bytes_(bytes) {}
+  PlyParser(const std::string& path, std::string_view bytes) : path_(path), bytes_(bytes) {}
 
   PlyHeader parse() {
     if (split_values(next_line()) != Words{"ply"}) fail("expected 'ply'; is this a PLY file?");
@@ -159,7 +159,7 @@ std::size_t PlyElement::record_size() const {
 }
 
 PlyHeader parse_ply_header(const std::string& path, std::string_view bytes) {
-  return Parser(path, bytes).parse();
+  return PlyParser(path, bytes).parse();
 }
 
 }  // namespace alea

@@ -11,7 +11,7 @@
 namespace alea {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int bins = 11;
 
 int bin_of(double value, double low, double high) {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
+#include "alea/core/angle.hpp"
 #include "alea/core/parallel.hpp"
 #include "alea/markerless/feature_match.hpp"
 #include "alea/markerless/plane_triples.hpp"
@@ -12,8 +12,6 @@
 
 namespace alea {
 namespace {
-
-constexpr double deg = std::numbers::pi / 180;
 
 IcpOptions gated(double gate_m, int iterations, double trim_share) {
   IcpOptions options;

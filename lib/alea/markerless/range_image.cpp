@@ -8,7 +8,7 @@
 namespace alea {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr float nothing = std::numeric_limits<float>::infinity();
 
 }  // namespace

@@ -12,7 +12,7 @@
 namespace alea {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Points of vertical surfaces seen from above, upright frame.
 struct WallPoint {

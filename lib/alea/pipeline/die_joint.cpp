@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "alea/core/angle.hpp"
 #include "alea/die/adjustment.hpp"
 #include "alea/die/assembly.hpp"
 #include "alea/pipeline/joint_shape.hpp"
@@ -15,7 +15,6 @@ namespace alea {
 namespace {
 
 constexpr std::size_t most_witnesses = 60;  // in all: each costs three unknowns
-constexpr double deg_per_rad = 180 / std::numbers::pi;
 
 /// The scans of an adjustment and which run each slave belongs to.
 struct JointScans {

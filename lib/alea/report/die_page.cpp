@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "alea/core/angle.hpp"
 #include "alea/report/die_pictures.hpp"
 #include "alea/report/frames_picture.hpp"
 #include "alea/report/overlay_picture.hpp"
@@ -12,8 +12,6 @@
 
 namespace alea {
 namespace {
-
-constexpr double deg_per_rad = 180 / std::numbers::pi;
 
 PageTable transform_table(const Registration& registration) {
   const RigidTransform& t = *registration.master_from_slave;

@@ -4,15 +4,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "alea/core/angle.hpp"
 #include "alea/die/facet_image.hpp"
 #include "alea/report/view.hpp"
 
 namespace alea {
 namespace {
 
-constexpr double deg_per_rad = 180 / std::numbers::pi;
 constexpr double points_per_pixel = 2;
 
 /// Azimuth (deg) in the middle of the widest gap of a scan; -180 for a scan all round.

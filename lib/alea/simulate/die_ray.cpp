@@ -2,24 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "alea/simulate/primitive_ray.hpp"
 
 namespace alea {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::infinity();
-
 struct Entry {
-  double range_m = none;
+  double range_m = never_m;
   int facet = -1;
 };
 
 /// Where the ray enters the six half spaces together (slab method, Kay and Kajiya 1986).
 Entry enter_body(const std::array<Plane, 6>& planes, const Ray& ray) {
-  Entry entry{-none, -1};
-  double leave = none;
+  Entry entry{-never_m, -1};
+  double leave = never_m;
   for (int f = 0; f < 6; ++f) {
     const double approach = planes[f].normal.dot(ray.direction);
     const double height = planes[f].signed_distance(ray.origin);
@@ -89,7 +86,7 @@ double recessed_range(const DieFacet& facet, const Ray& ray, double range_m,
   const double a = slope.squaredNorm();
   const double b = slope.dot(from_centre);
   const double c = from_centre.squaredNorm() - facet.pip_radius_m * facet.pip_radius_m;
-  const double to_wall = a > 0 ? (-b + std::sqrt(std::max(0.0, b * b - a * c))) / a : none;
+  const double to_wall = a > 0 ? (-b + std::sqrt(std::max(0.0, b * b - a * c))) / a : never_m;
   return range_m + std::min(to_floor, to_wall);
 }
 
@@ -120,7 +117,7 @@ Hit hit_on_facet(const Die& die, std::uint32_t index, int number, const Ray& ray
 }  // namespace
 
 bool passes(const Die& die, double margin_m, const Ray& ray) {
-  double enter = 0, leave = none;
+  double enter = 0, leave = never_m;
   for (const Plane& plane : die.body.planes) {
     const double approach = plane.normal.dot(ray.direction);
     const double height = plane.signed_distance(ray.origin) - margin_m;

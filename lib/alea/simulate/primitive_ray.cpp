@@ -1,12 +1,9 @@
 #include "alea/simulate/primitive_ray.hpp"
 
 #include <cmath>
-#include <limits>
 
 namespace alea {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::infinity();
 
 bool nearer(double range_m, const Hit& hit) {
   return range_m > 0 && range_m < hit.range_m;
@@ -20,7 +17,7 @@ double enter_ball(const Ray& ray, const Eigen::Vector3d& centre_m, double radius
   // The distance of the centre from the ray, not from the origin: no cancellation at long range.
   const double off_squared = (to_centre - along * ray.direction).squaredNorm();
   const double half_squared = radius_m * radius_m - off_squared;
-  return half_squared < 0 ? none : along - std::sqrt(half_squared);
+  return half_squared < 0 ? never_m : along - std::sqrt(half_squared);
 }
 
 double enter_capsule(const Ray& ray, const Eigen::Vector3d& a_m, const Eigen::Vector3d& b_m,
@@ -36,7 +33,7 @@ double enter_capsule(const Ray& ray, const Eigen::Vector3d& a_m, const Eigen::Ve
   if (a < 1e-24) return std::min(enter_ball(ray, a_m, radius_m), enter_ball(ray, b_m, radius_m));
   const double nearest = -off.dot(across) / a;
   const double half_squared = (radius_m * radius_m - (off + nearest * across).squaredNorm()) / a;
-  if (half_squared < 0) return none;
+  if (half_squared < 0) return never_m;
   const double range = nearest - std::sqrt(half_squared);
   const double at = height + range * slope;
   if (at >= 0 && at <= length) return range;
@@ -60,7 +57,7 @@ void intersect(const Box& box, std::uint32_t index, const Ray& ray, Hit& hit) {
   const Eigen::Matrix3d& turn = box.scene_from_box.rotation;
   const Eigen::Vector3d origin = turn.transpose() * (ray.origin - box.scene_from_box.translation);
   const Eigen::Vector3d direction = turn.transpose() * ray.direction;
-  double enter = -none, leave = none;
+  double enter = -never_m, leave = never_m;
   int axis = -1;
   for (int a = 0; a < 3; ++a) {
     const double half = box.size_m[a] / 2;

@@ -1,9 +1,14 @@
 #pragma once
 
+#include <limits>
+
 #include "alea/simulate/ray.hpp"
 #include "alea/simulate/scene.hpp"
 
 namespace alea {
+
+/// Range of a ray that meets nothing.
+inline constexpr double never_m = std::numeric_limits<double>::infinity();
 
 /// Each moves `hit` to where the ray meets the object, if that is nearer and in front of the
 /// origin. Solids are seen from outside, patches from both sides.

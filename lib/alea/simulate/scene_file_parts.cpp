@@ -4,13 +4,13 @@
 
 #include <numbers>
 
+#include "alea/core/angle.hpp"
 #include "alea/core/error.hpp"
 
 namespace alea {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
-constexpr double arc_second = degree / 3600;
+constexpr double arc_second = deg / 3600;
 
 PipStyle read_pips(const TomlTable& table) {
   PipStyle pips;
@@ -29,8 +29,8 @@ PipStyle read_pips(const TomlTable& table) {
 void read_facet(const TomlTable& table, std::array<FacetShape, 6>& facets) {
   table.require("pips");
   FacetShape& facet = facets[table.integer("pips", 1, 1, 6) - 1];
-  facet.tilt_u_rad = degree * table.number("tilt_u_deg", 0);
-  facet.tilt_v_rad = degree * table.number("tilt_v_deg", 0);
+  facet.tilt_u_rad = deg * table.number("tilt_u_deg", 0);
+  facet.tilt_v_rad = deg * table.number("tilt_v_deg", 0);
   facet.offset_m = table.number("offset_m", 0);
   facet.bow_m = table.number("bow_m", 0);
   table.finish();
@@ -45,7 +45,7 @@ RigidTransform read_die_pose(const TomlTable& table, Chirality chirality) {
   const auto front = static_cast<int>(table.integer("front", up == 2 || up == 5 ? 3 : 2, 1, 6));
   if (front == up || front + up == 7)
     table.fail("front", "a facet that meets the upper one in an edge");
-  return standing_pose(chirality, up, front, degree * table.number("front_azimuth_deg", 0),
+  return standing_pose(chirality, up, front, deg * table.number("front_azimuth_deg", 0),
                        table.vector3("centre_m"));
 }
 
@@ -53,7 +53,7 @@ RigidTransform read_die_pose(const TomlTable& table, Chirality chirality) {
 
 RigidTransform read_pose(const TomlTable& table, const std::string& centre_key) {
   const Eigen::Vector3d angles = table.vector3("omega_phi_kappa_deg", Eigen::Vector3d::Zero());
-  return {rotation_from_omega_phi_kappa(angles * degree), table.vector3(centre_key)};
+  return {rotation_from_omega_phi_kappa(angles * deg), table.vector3(centre_key)};
 }
 
 Eigen::Vector3d read_size(const TomlTable& table, const std::string& key,
@@ -123,8 +123,8 @@ Station read_station(const TomlTable& table, std::size_t number, const Scanner& 
     if (target == nullptr) table.fail("aim_at", "the id of an object of this scene");
     station = aimed_station(pose, *target, step);
   } else {
-    const Eigen::Vector2d azimuth = table.interval("azimuth_deg", {-180, 180}) * degree;
-    const Eigen::Vector2d elevation = table.interval("elevation_deg", {-60, 85}) * degree;
+    const Eigen::Vector2d azimuth = table.interval("azimuth_deg", {-180, 180}) * deg;
+    const Eigen::Vector2d elevation = table.interval("elevation_deg", {-60, 85}) * deg;
     if (azimuth[1] - azimuth[0] > 2 * std::numbers::pi * (1 + 1e-12))
       table.fail("azimuth_deg", "at most one turn");
     if (elevation.cwiseAbs().maxCoeff() > std::numbers::pi / 2 * (1 + 1e-12))
