@@ -19,7 +19,7 @@
 namespace alea::acceptance {
 namespace {
 
-constexpr double edge_m = 0.5, range_m = 6, scanner_height_m = 1.6;
+constexpr double extraction_edge_m = 0.5, extraction_range_m = 6, scanner_height_m = 1.6;
 
 /// How facets are taken out of the scans, and what die is scanned.
 struct Extraction {
@@ -47,9 +47,9 @@ Extraction naive_extraction() {
 
 Scene die_on_floor(double edge_radius_m) {
   DieModel model;
-  model.size_m.setConstant(edge_m);
+  model.size_m.setConstant(extraction_edge_m);
   model.edge_radius_m = edge_radius_m;
-  model.scene_from_die.translation = {0, 0, edge_m / 2};
+  model.scene_from_die.translation = {0, 0, extraction_edge_m / 2};
   Scene scene;
   scene.dice.push_back(build_die(model));
   Patch floor;
@@ -68,7 +68,8 @@ struct Observation {
 std::optional<Observation> observe(const Extraction& extraction, const Scene& scene,
                                    std::uint64_t seed, std::uint64_t trial, std::uint32_t scan) {
   const RandomStream random({seed, 5, trial, scan, Purpose::station});
-  const double distance = std::sqrt(range_m * range_m - std::pow(scanner_height_m - edge_m / 2, 2));
+  const double distance = std::sqrt(extraction_range_m * extraction_range_m -
+                                    std::pow(scanner_height_m - extraction_edge_m / 2, 2));
   const double azimuth = std::numbers::pi / 4 + scan * std::numbers::pi / 2;
   Observation out;
   out.scene_from_scan =
@@ -79,7 +80,7 @@ std::optional<Observation> observe(const Extraction& extraction, const Scene& sc
                                         extraction.step_rad, Eigen::Vector2d(phase[0], phase[1]));
   const Cloud cloud = simulate_scan(scene, station, {seed, 5, trial, scan});
   DieFinderOptions options;
-  options.edge_m = edge_m;
+  options.edge_m = extraction_edge_m;
   options.facets = extraction.facets;
   const auto dice = find_dice(cloud, detect_planes(cloud), options);
   if (!dice) return std::nullopt;
@@ -108,7 +109,7 @@ Run run_once(const Extraction& extraction, const Scene& scene, std::uint64_t see
   const auto slave = observe(extraction, scene, seed, trial, 1);
   if (!master || !slave) return {};
   ClosedFormOptions options;
-  options.edge_m = edge_m;
+  options.edge_m = extraction_edge_m;
   const auto result = register_closed_form(master->die, slave->die, options);
   if (!result) return {};
   const Eigen::Matrix3d scene_from_slave =
@@ -165,7 +166,8 @@ std::vector<Run> registered_only(std::vector<Run> runs, const Extraction& extrac
 
 double bound_rad(double step_rad) {
   DieBoundCase geometry;
-  geometry.edge_m = edge_m, geometry.range_m = range_m, geometry.step_rad = step_rad;
+  geometry.edge_m = extraction_edge_m, geometry.range_m = extraction_range_m,
+  geometry.step_rad = step_rad;
   geometry.scanner_height_m = scanner_height_m;
   geometry.shape_known = false;
   return die_bound(geometry).rotation_rad;

@@ -19,13 +19,14 @@ namespace {
 
 constexpr std::uint64_t own_trials = 10000;
 constexpr std::uint32_t experiment_number = 34;
-constexpr double edge_m = 0.5, range_m = 6, step_rad = 1e-3, tilt_sd_rad = 0.00698;
+constexpr double plan_edge_m = 0.5, plan_range_m = 6, plan_step_rad = 1e-3,
+                 plan_tilt_sd_rad = 0.00698;
 
 DieModel standing_die() {
   DieModel model;
-  model.size_m.setConstant(edge_m);
+  model.size_m.setConstant(plan_edge_m);
   model.edge_radius_m = 0.005;
-  model.scene_from_die = standing_pose(model.chirality, 1, 2, 0, {0, 0, edge_m / 2});
+  model.scene_from_die = standing_pose(model.chirality, 1, 2, 0, {0, 0, plan_edge_m / 2});
   return model;
 }
 
@@ -34,8 +35,8 @@ Scene scene_with(const Die& die, const RandomStream* phases) {
   Scene scene;
   scene.dice = {die};
   DieBoundCase geometry;
-  geometry.edge_m = edge_m;
-  geometry.range_m = range_m;
+  geometry.edge_m = plan_edge_m;
+  geometry.range_m = plan_range_m;
   std::uint64_t index = 0;
   for (const FisherStation& station : die_bound_scene(geometry).stations) {
     Eigen::Vector2d phase(0.5, 0.5);
@@ -44,7 +45,7 @@ Scene scene_with(const Die& die, const RandomStream* phases) {
       phase = {column, row};
     }
     scene.stations.push_back(
-        aimed_station(station.scene_from_scan, bounding_ball(die), step_rad, phase));
+        aimed_station(station.scene_from_scan, bounding_ball(die), plan_step_rad, phase));
     scene.stations.back().name = fmt::format("station {}", scene.stations.size());
   }
   return scene;
@@ -74,7 +75,7 @@ std::vector<Eigen::Vector3d> places() {
 /// Squared displacement of each place by the error of one registration; empty where it was refused.
 std::vector<double> squared_displacements(std::uint64_t seed, std::uint64_t trial) {
   const Die die = build_die(
-      with_random_shape(standing_die(), {tilt_sd_rad, 0, 0}, seed, experiment_number, trial));
+      with_random_shape(standing_die(), {plan_tilt_sd_rad, 0, 0}, seed, experiment_number, trial));
   const RandomStream phases({seed, experiment_number, trial, 0, Purpose::station});
   const Scene scene = scene_with(die, &phases);
   std::vector<Cloud> scans;

@@ -14,7 +14,7 @@ namespace alea::acceptance {
 namespace {
 
 constexpr std::uint64_t plane_trials = 10000;
-constexpr double step_rad = 4e-3;
+constexpr double planes_step_rad = 4e-3;
 
 /// Three walls of 0.8 m and a piece of floor about the origin, which both stations see.
 std::vector<Patch> patches() {
@@ -34,7 +34,7 @@ PlaneFit seen(const Patch& patch, const RigidTransform& pose, const SimulationKe
   const RandomStream phases({key.seed, key.experiment, key.trial, key.scan, Purpose::station});
   const auto [column, row] = phases.uniform2_at(0);
   const Station station =
-      aimed_station(pose, bounding_ball(patch), step_rad, Eigen::Vector2d(column, row));
+      aimed_station(pose, bounding_ball(patch), planes_step_rad, Eigen::Vector2d(column, row));
   return fit_plane(simulate_scan(scene, station, key).positions, {});
 }
 

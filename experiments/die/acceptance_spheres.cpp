@@ -16,7 +16,7 @@
 namespace alea::acceptance {
 namespace {
 
-constexpr double radius_m = 0.0725, ring_m = 4, height_m = 1.6, step_rad = 3e-4;
+constexpr double radius_m = 0.0725, ring_m = 4, height_m = 1.6, spheres_step_rad = 3e-4;
 
 /// Six spheres on a ring of 4 m, at heights that a tripod allows; the target point is the ring's
 /// centre.
@@ -37,7 +37,8 @@ RigidTransform pose_at(double range_m, double azimuth_rad) {
 
 FisherScene bound_scene(const std::array<RigidTransform, 2>& poses) {
   FisherScene scene;
-  for (const RigidTransform& pose : poses) scene.stations.push_back({pose, step_rad, unknown_sd});
+  for (const RigidTransform& pose : poses)
+    scene.stations.push_back({pose, spheres_step_rad, unknown_sd});
   for (const Eigen::Vector3d& place : sphere_places())
     scene.spheres.push_back({place, radius_m, true});
   return scene;
@@ -59,7 +60,7 @@ FitsOfMethods fits_of(const RigidTransform& pose, std::uint32_t scan, std::uint6
     Scene scene;
     scene.spheres = {{"", places[k], radius_m, 0.9}};
     const auto phase = phases.uniform2_at(k);
-    const Station station = aimed_station(pose, bounding_ball(scene.spheres[0]), step_rad,
+    const Station station = aimed_station(pose, bounding_ball(scene.spheres[0]), spheres_step_rad,
                                           Eigen::Vector2d(phase[0], phase[1]));
     const std::uint32_t part = scan * 16 + static_cast<std::uint32_t>(k);
     const Cloud cloud = simulate_scan(scene, station, {options.seed, 10, trial, part});

@@ -24,7 +24,7 @@ using ::testing::HasSubstr;
 using testing::run_shell;
 using testing::TemporaryFolder;
 
-const std::string program = "'" + testing::program_path() + "'";
+const std::string quoted_program = "'" + testing::program_path() + "'";
 
 // Runs a line of sh with a file system of its own in `mount`, which nobody else sees; empty where
 // the system does not let us have one.
@@ -44,9 +44,10 @@ TEST(DamageCommand, AFullFileSystemLeavesTheOldFileAndNothingElse) {
   write_cloud(folder.file("in.ply"), testing::full_cloud(20000, false));
   for (const std::string name : {"out.ply", "out.pcd", "out.xyz", "out.ptx", "out.e57"}) {
     const std::string out = mount + "/" + name;
-    const auto run = with_own_mount(
-        mount, "printf old > '" + out + "'; " + program + " convert '" + folder.file("in.ply") +
-                   "' '" + out + "'; echo exit \\$?; cat '" + out + "'; ls '" + mount + "'");
+    const auto run =
+        with_own_mount(mount, "printf old > '" + out + "'; " + quoted_program + " convert '" +
+                                  folder.file("in.ply") + "' '" + out + "'; echo exit \\$?; cat '" +
+                                  out + "'; ls '" + mount + "'");
     if (!run) GTEST_SKIP() << no_mount;
     EXPECT_THAT(run->output, HasSubstr(name + ": cannot write: No space left on device"));
     EXPECT_THAT(run->output, HasSubstr("exit 3\nold" + name + "\n"))
@@ -59,9 +60,9 @@ TEST(DamageCommand, AReadOnlyFileSystemIsNamed) {
   const std::string mount = folder.file("fixed");
   fs::create_directory(mount);
   write_cloud(folder.file("in.ply"), testing::full_cloud(10, false));
-  const auto run = with_own_mount(mount, "mount -o remount,ro '" + mount + "' && " + program +
-                                             " convert '" + folder.file("in.ply") + "' '" + mount +
-                                             "/out.ply'; echo exit \\$?");
+  const auto run = with_own_mount(mount, "mount -o remount,ro '" + mount + "' && " +
+                                             quoted_program + " convert '" + folder.file("in.ply") +
+                                             "' '" + mount + "/out.ply'; echo exit \\$?");
   if (!run) GTEST_SKIP() << no_mount;
   EXPECT_THAT(run->output, HasSubstr("out.ply: cannot write: Read-only file system"));
   EXPECT_THAT(run->output, HasSubstr("exit 3"));
@@ -99,8 +100,8 @@ class Reading : public ::testing::Test {
     for (int i = 0; i < 1000; ++i) text += line;
     write_file_atomically(in_, text);
     write_file_atomically(out_, "old");
-    const std::string command = "exec " + program + " convert '" + in_ + "' '" + out_ + "' 2> '" +
-                                folder_.file("message") + "'";
+    const std::string command = "exec " + quoted_program + " convert '" + in_ + "' '" + out_ +
+                                "' 2> '" + folder_.file("message") + "'";
     const char* const arguments[] = {"sh", "-c", command.c_str(), nullptr};
     pid_t child = 0;
     EXPECT_EQ(::posix_spawn(&child, "/bin/sh", nullptr, nullptr,

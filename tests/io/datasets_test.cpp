@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 using testing::run_shell;
 using testing::TemporaryFolder;
 
-const std::string script = "'" + testing::source_dir() + "/scripts/get-datasets'";
+const std::string get_datasets = "'" + testing::source_dir() + "/scripts/get-datasets'";
 
 // A data set of two files in a folder that stands for the network; the sum of the second is wrong.
 TEST(Datasets, FilesAreDownloadedAndOneWithAWrongSumIsNotKept) {
@@ -33,19 +33,20 @@ TEST(Datasets, FilesAreDownloadedAndOneWithAWrongSumIsNotKept) {
       << "{name = \"b b.xyz\", sha256 = \"" << sum << "\"},\n]\n";
   const std::string arguments =
       " --manifest '" + folder.file("manifest.toml") + "' '" + folder.file("data") + "'";
-  const testing::ShellRun run = run_shell(script + arguments);
+  const testing::ShellRun run = run_shell(get_datasets + arguments);
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_THAT(run.output, HasSubstr("a.xyz: downloaded and verified"));
   EXPECT_THAT(run.output, HasSubstr("its SHA-256 is not the one in the manifest"));
   EXPECT_EQ(testing::read_text(folder.path() / "data/small/one/a.xyz"), "1 2 3\n");
   EXPECT_EQ(run_shell("ls '" + folder.file("data/small") + "'").output, "one\n");
-  EXPECT_THAT(run_shell(script + " --check" + arguments).output, HasSubstr("b b.xyz: missing"));
+  EXPECT_THAT(run_shell(get_datasets + " --check" + arguments).output,
+              HasSubstr("b b.xyz: missing"));
 }
 
 TEST(Datasets, WhatIsThereIsWhatTheManifestSays) {
   const char* datasets = std::getenv("ALEA_DATASETS");
   if (datasets == nullptr) GTEST_SKIP() << "set ALEA_DATASETS to a folder of scripts/get-datasets";
-  const testing::ShellRun run = run_shell(script + " --check '" + datasets + "'");
+  const testing::ShellRun run = run_shell(get_datasets + " --check '" + datasets + "'");
   EXPECT_EQ(run.output.find("wrong SHA-256"), std::string::npos) << run.output;
 }
 

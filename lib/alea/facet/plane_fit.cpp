@@ -16,7 +16,7 @@ using Points = std::span<const Eigen::Vector3d>;
 
 constexpr int max_passes = 12;
 // Far below the noise of any scan; a pass squares the error, so the next one would change nothing.
-constexpr double settled_rad = 1e-7, settled_m = 1e-8;
+constexpr double plane_settled_rad = 1e-7, plane_settled_m = 1e-8;
 
 void check_options(const PlaneFitOptions& options) {
   if ((options.method == FitMethod::along_ray || options.area_weights) && !options.scanner_position)
@@ -40,8 +40,8 @@ CentredPlane pass_once(Points points, const CentredFrame& frame, const CentredPl
 }
 
 bool settled(const CentredPlane& before, const CentredPlane& after) {
-  return (after.normal - before.normal).norm() < settled_rad &&
-         std::abs(after.normal.dot(before.point - after.point)) < settled_m;
+  return (after.normal - before.normal).norm() < plane_settled_rad &&
+         std::abs(after.normal.dot(before.point - after.point)) < plane_settled_m;
 }
 
 PlaneFit summarise(Points points, const CentredFrame& frame, CentredPlane plane,
