@@ -14,7 +14,7 @@ namespace {
 
 using namespace experiments::markerless;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 // Of a robust pose on the twins, 1 sigma: the median errors when it is right.
 constexpr double rotation_sd_rad = 0.01 * pi / 180, translation_sd_m = 0.003;
 

@@ -6,14 +6,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "alea/core/angle.hpp"
 #include "experiments/markerless/rank_correlation.hpp"
 
 namespace alea::experiments::markerless {
 namespace {
-
-constexpr double deg = std::numbers::pi / 180;
 
 Cell statement(const std::string& row, const std::string& column, const std::string& unit,
                const std::string& printed, double ours, Verdict verdict, const std::string& note) {

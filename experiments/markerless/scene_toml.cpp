@@ -1,13 +1,10 @@
 #include <fmt/format.h>
 
-#include <numbers>
-
+#include "alea/core/angle.hpp"
 #include "experiments/markerless/twin_scene.hpp"
 
 namespace alea::experiments::markerless {
 namespace {
-
-constexpr double deg_per_rad = 180 / std::numbers::pi;
 
 std::string vector(const Eigen::Vector3d& v) {
   return fmt::format("[{:.9g}, {:.9g}, {:.9g}]", v.x(), v.y(), v.z());

@@ -109,7 +109,8 @@ class Fitter {
     }
     const double floor = 1e-4 * std::abs(fit_.half_contrast) + 1e-12;
     const bool few_flat = flat.size() < 20;
-    fit_.intensity_sd = std::max(1.4826 * median(few_flat ? all : flat), floor);
+    const double spread = all.empty() ? 0 : median(few_flat ? all : flat);
+    fit_.intensity_sd = std::max(1.4826 * spread, floor);
     fit_.place_sd_m = 0;
     if (few_flat) return;
     const double noise = fit_.intensity_sd * fit_.intensity_sd;
