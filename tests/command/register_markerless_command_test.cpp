@@ -8,6 +8,7 @@
 
 #include "alea/core/seed.hpp"
 #include "alea/io/cloud_file.hpp"
+#include "tests/command/json_matrix.hpp"
 #include "tests/support/json_schema.hpp"
 #include "tests/support/program.hpp"
 
@@ -71,13 +72,6 @@ class MarkerlessCommand : public ::testing::Test {
 };
 TemporaryFolder* MarkerlessCommand::folder_ = nullptr;
 
-Eigen::Matrix4d matrix_of(const json& result) {
-  Eigen::Matrix4d m;
-  for (int i = 0; i < 16; ++i)
-    m(i / 4, i % 4) = result["master_from_slave"]["matrix"][i / 4][i % 4];
-  return m;
-}
-
 void expect_schema(const json& result) {
   const auto problems = testing::schema_violations(result, testing::load_schema("register.v1"));
   EXPECT_TRUE(problems.empty()) << problems.front();
@@ -89,7 +83,7 @@ TEST_F(MarkerlessCommand, RobustFindsTheRoomFromNothing) {
   const json result = json::parse(run.out);
   expect_schema(result);
   EXPECT_EQ(result["method"], "robust");
-  const Eigen::Matrix4d m = matrix_of(result);
+  const Eigen::Matrix4d m = matrix_of(result["master_from_slave"]["matrix"]);
   // Headings 0.2 and 1.4 rad: the moving scan is turned by 1.2 rad in the fixed one's frame.
   EXPECT_NEAR(std::atan2(m(1, 0), m(0, 0)), 1.2, 0.01);
   EXPECT_NEAR((m.block<3, 1>(0, 3).norm()), std::sqrt(2.2 * 2.2 + 0.3 * 0.3 + 0.01), 0.02);

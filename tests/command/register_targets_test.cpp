@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "tests/command/json_matrix.hpp"
 #include "tests/support/json_schema.hpp"
 #include "tests/support/program.hpp"
 
@@ -20,12 +21,6 @@ using testing::ProgramRun;
 using testing::read_text;
 using testing::run_alea;
 using testing::TemporaryFolder;
-
-Eigen::Matrix4d matrix_of(const json& rows) {
-  Eigen::Matrix4d matrix;
-  for (int i = 0; i < 16; ++i) matrix(i / 4, i % 4) = rows[i / 4][i % 4];
-  return matrix;
-}
 
 void expect_conforming(const json& value) {
   const auto violations = testing::schema_violations(value, testing::load_schema("register.v1"));
