@@ -61,19 +61,20 @@ void window_sums(const std::vector<double>& in, int length, std::size_t stride, 
                  std::size_t across, int cells, int cell_px, bool alternating,
                  std::vector<double>& out, std::vector<double>& running) {
   running.assign(static_cast<std::size_t>(length) + 1, 0);
-  const int last = length - cells * cell_px;
+  const int window = cells * cell_px, last = length - window;
+  const auto box = [&](int k) { return running[k + cell_px] - running[k]; };
   for (int line = 0; line < lines; ++line) {
     const std::size_t base = line * across;
     for (int k = 0; k < length; ++k) running[k + 1] = running[k] + in[base + k * stride];
     for (int k = 0; k <= last; ++k) {
       double sum = 0;
-      if (alternating) {
-        for (int c = 0; c < cells; ++c) {
-          const double box = running[k + (c + 1) * cell_px] - running[k + c * cell_px];
-          sum += c % 2 == 0 ? box : -box;
-        }
-      } else {
-        sum = running[k + cells * cell_px] - running[k];
+      if (!alternating) {
+        sum = running[k + window] - running[k];
+      } else if (k < cell_px) {
+        for (int c = 0; c < cells; ++c) sum += (c % 2 == 0 ? 1 : -1) * box(k + c * cell_px);
+      } else {  // one cell further: all signs change, one cell goes, one comes
+        const double behind = out[base + (k - cell_px) * stride];
+        sum = box(k - cell_px) - behind + (cells % 2 == 1 ? 1 : -1) * box(k + window - cell_px);
       }
       out[base + k * stride] = sum;
     }

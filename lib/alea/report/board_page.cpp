@@ -142,7 +142,9 @@ Page board_page(const Cloud& cloud, const Eigen::Vector3d& near_m,
                        const RigidTransform* pose) {
     const StagePicture stage{points, options.target.board, views_of(seen_from),
                              seen_from.translation};
-    page.figures.push_back({name + ".png", name, caption, draw_stage(stage, pose)});
+    std::string title = name;
+    std::replace(title.begin(), title.end(), '_', ' ');
+    page.figures.push_back({name + ".png", title, caption, draw_stage(stage, pose)});
   };
   add("crop", "the points near the place, by intensity", stages.cropped, nullptr);
   add("outliers_removed", "without the points off the plane", stages.without_outliers, nullptr);
