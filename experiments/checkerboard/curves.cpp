@@ -122,11 +122,11 @@ void draw_column(Canvas& canvas, int columns, int column, const std::string& tit
 
 std::string Curve::name() const {
   std::string text = to_string(method);
-  std::replace(text.begin(), text.end(), '_', ' ');
   text += fmt::format(", {} deg", rotation_deg);
   if (synthetic.noise > 0) text += fmt::format(", noise {:g} %", 100 * synthetic.noise);
   if (synthetic.target != Target::identical)
     text += std::string(", ") + to_string(synthetic.target);
+  std::replace(text.begin(), text.end(), '_', ' ');
   return text;
 }
 

@@ -37,11 +37,10 @@ Cell statement(const std::string& row, const std::string& column, const std::str
   return {row, column, "%", printed, ours, verdict, note};
 }
 
-/// A method's name in words.
-std::string words(Method method) {
-  std::string text = to_string(method);
-  std::replace(text.begin(), text.end(), '_', ' ');
-  return text;
+/// A name in words.
+std::string spaced(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
 }
 
 Verdict verdict_of(bool holds, bool fails) {
@@ -72,8 +71,9 @@ void add_rotation_statement(const std::vector<Curve>& curves, std::vector<Cell>&
     }
     const Interval ours = percent(worst);
     cells.push_back(statement(
-        row, fmt::format("least success, {}, target {}", words(method), to_string(target)), "> 70",
-        ours, verdict_of(ours.high >= 70, ours.high < 70), note));
+        row,
+        fmt::format("least success, {}, target {}", spaced(to_string(method)), to_string(target)),
+        "> 70", ours, verdict_of(ours.high >= 70, ours.high < 70), note));
   };
   add(Method::coloured, Target::identical, "");
   add(Method::coloured, Target::independent, "");
@@ -116,9 +116,11 @@ void add_baseline_statement(const std::vector<Curve>& curves, std::vector<Cell>&
                  "the same points on both sides: their outline is matched, not their colour"}}) {
     const Share share = curve_of(curves, one.method, one.rotation_deg).at(60).strict;
     const Interval ours = percent(share);
-    cells.push_back(statement(
-        row, fmt::format("success at 60 % shift, {}, {} deg", words(one.method), one.rotation_deg),
-        "not reliable", ours, verdict_of(ours.low < 90, ours.low >= 90), one.note));
+    cells.push_back(statement(row,
+                              fmt::format("success at 60 % shift, {}, {} deg",
+                                          spaced(to_string(one.method)), one.rotation_deg),
+                              "not reliable", ours, verdict_of(ours.low < 90, ours.low >= 90),
+                              one.note));
   }
 }
 
@@ -141,7 +143,7 @@ ResultTable statements(const std::vector<Curve>& curves, std::uint64_t pairs) {
 ResultTable success_table(const std::string& figure, const std::vector<Curve>& curves) {
   ResultTable table;
   table.id = fmt::format("figure{}", figure);
-  table.title = fmt::format("Success (strict) behind Figure {}", figure);
+  table.title = fmt::format("Success (strict) behind Figure {}", spaced(figure));
   table.note = "the paper prints curves without numbers";
   for (const Curve& curve : curves)
     for (const CurvePoint& p : curve.points)
@@ -215,8 +217,8 @@ std::vector<ResultTable> reproduce_checkerboard(const ReproductionOptions& optio
           (figure == "8" && curve.figure == "6" && curve.rotation_deg == 0))
         shown.push_back(curve);
     write_file_atomically(path(fmt::format("figure{}_data.csv", figure)), curves_csv(shown));
-    draw_curves(path(fmt::format("figure{}.png", figure)), fmt::format("Figure {}", figure), shown,
-                figure == "8");
+    draw_curves(path(fmt::format("figure{}.png", figure)), fmt::format("Figure {}", spaced(figure)),
+                shown, figure == "8");
     tables.push_back(success_table(figure, shown));
   }
   for (const ResultTable& table : tables) write_table(options.out, table);
