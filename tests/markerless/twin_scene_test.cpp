@@ -7,6 +7,7 @@
 #include "alea/simulate/scene_file.hpp"
 #include "experiments/markerless/audit.hpp"
 #include "experiments/markerless/rank_correlation.hpp"
+#include "tests/support/paths.hpp"
 
 namespace alea::experiments::markerless {
 namespace {
@@ -26,7 +27,7 @@ void expect_same_scene(const Scene& a, const Scene& b) {
 }
 
 TEST(TwinScenes, TheFilesAreTheFirstLayout) {
-  const std::string folder = std::string(ALEA_SOURCE_DIR) + "/datasets/markerless/";
+  const std::string folder = alea::testing::source_dir() + "/datasets/markerless/";
   expect_same_scene(load_scene(folder + "bell_tower.toml"), bell_tower({}));
   expect_same_scene(load_scene(folder + "lighthouse.toml"), lighthouse({}));
 }
