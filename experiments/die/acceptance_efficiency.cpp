@@ -61,8 +61,8 @@ Cell ratio_cell(const std::string& name, const std::vector<EfficiencyTrial>& tri
                  limit, square.n);
 }
 
-Cell mean_cell(const std::string& name, const Mean& mean, const Limit& limit, double unit = 1,
-               const std::string& unit_name = "") {
+Cell efficiency_cell(const std::string& name, const Mean& mean, const Limit& limit, double unit = 1,
+                     const std::string& unit_name = "") {
   const double half = 1.96 * mean.standard_error;
   return cell_of(name, mean.value / unit, {(mean.value - half) / unit, (mean.value + half) / unit},
                  limit, mean.n, unit_name);
@@ -91,18 +91,18 @@ void report_case(const EfficiencyCase& setting, const Options& options, const Re
                     bound.rotation_rad, at_most(1.10)));
   report(ratio_cell(name + "translation / L", trials, &EfficiencyTrial::translation_m,
                     bound.translation_m, at_most(1.20)));
-  report(mean_cell(name + "NEES / 6",
-                   mean_of(trials, [](const EfficiencyTrial& t) { return t.nees / 6; }),
-                   within(1, 0.07)));
-  report(mean_cell(
+  report(efficiency_cell(name + "NEES / 6",
+                         mean_of(trials, [](const EfficiencyTrial& t) { return t.nees / 6; }),
+                         within(1, 0.07)));
+  report(efficiency_cell(
       name + "inside the 95 % ellipsoid",
       mean_of(trials,
               [&](const EfficiencyTrial& t) { return t.nees <= chi_square_95_of_six ? 1.0 : 0.0; }),
       within(0.95, 0.015)));
-  Cell closure =
-      mean_cell(name + "misclosure chi-square, 1 degree of freedom",
-                mean_of(trials, [](const EfficiencyTrial& t) { return t.misclosure_chi_square; }),
-                within(1, 0.1));
+  Cell closure = efficiency_cell(
+      name + "misclosure chi-square, 1 degree of freedom",
+      mean_of(trials, [](const EfficiencyTrial& t) { return t.misclosure_chi_square; }),
+      within(1, 0.1));
   closure.judgement = Judgement::shown;
   report(closure);
   Cell refused = cell_of(name + "refused", 0, {0, 0}, at_most(0), trials.size());
@@ -131,8 +131,8 @@ void run_mixed_domains(const Options& options, const Report& report) {
   setting.fit = FitMethod::orthogonal;
   const auto trials = run_efficiency(setting, options.seed, options.trials_or(300));
   const Mean tilt = mean_of(trials, [](const EfficiencyTrial& t) { return t.top_tilt_rad; });
-  Cell bias = mean_cell("ray selection, orthogonal fit: tilt of the upper facet", tilt,
-                        within(0, 1), deg, "deg");
+  Cell bias = efficiency_cell("ray selection, orthogonal fit: tilt of the upper facet", tilt,
+                              within(0, 1), deg, "deg");
   const double size = std::abs(bias.value), half = (bias.interval.high - bias.interval.low) / 2;
   bias.value = size;
   bias.interval = {size - half, size + half};

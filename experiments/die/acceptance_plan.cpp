@@ -17,7 +17,7 @@
 namespace alea::acceptance {
 namespace {
 
-constexpr std::uint64_t own_trials = 10000;
+constexpr std::uint64_t plan_trials = 10000;
 constexpr std::uint32_t experiment_number = 34;
 constexpr double plan_edge_m = 0.5, plan_range_m = 6, plan_step_rad = 1e-3,
                  plan_tilt_sd_rad = 0.00698;
@@ -100,7 +100,7 @@ std::vector<double> squared_displacements(std::uint64_t seed, std::uint64_t tria
 }  // namespace
 
 void run_plan(const Options& options, const Report& report) {
-  std::vector<std::vector<double>> trials(options.trials_or(own_trials));
+  std::vector<std::vector<double>> trials(options.trials_or(plan_trials));
   parallel_chunks(trials.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) trials[t] = squared_displacements(options.seed, t);
   });
@@ -122,7 +122,7 @@ void run_plan(const Options& options, const Report& report) {
         fmt::format("observed over predicted RMS error at ({:g}, {:g}) m, predicted {:.2f} mm",
                     nine[k].x(), nine[k].y(), predicted_m * 1e3),
         observed, predicted, within(1, 0.06));
-    cell.judgement = options.judgement(own_trials);
+    cell.judgement = options.judgement(plan_trials);
     report(cell);
   }
   report({"refused",

@@ -10,24 +10,24 @@
 namespace alea {
 namespace {
 
-constexpr std::size_t bins = 64;
+constexpr std::size_t depth_bins = 64;
 constexpr double end_share = 0.15;  // of an edge, left out at both ends: corners have three planes
 
 /// Mean depth t of the points in bins of s, over all three edges.
 struct Profile {
   double reach_m;
-  std::array<double, bins> mean_t{};
-  std::array<double, bins> count{};
+  std::array<double, depth_bins> mean_t{};
+  std::array<double, depth_bins> count{};
   double s_at(std::size_t bin) const {
-    return reach_m * (2 * (static_cast<double>(bin) + 0.5) / bins - 1);
+    return reach_m * (2 * (static_cast<double>(bin) + 0.5) / depth_bins - 1);
   }
 };
 
 Profile measure_profile(std::span<const Eigen::Vector3d> points, const FacetCorner& corner,
                         const std::array<double, 3>& edges_m, double reach_m) {
-  std::array<double, bins> bounds{};
+  std::array<double, depth_bins> bounds{};
   bounds.fill(4 * reach_m);
-  OrderFreeSum<bins> sums(bounds, std::max<std::size_t>(1, 3 * points.size()));
+  OrderFreeSum<depth_bins> sums(bounds, std::max<std::size_t>(1, 3 * points.size()));
   Profile out{reach_m, {}, {}};
   for (const Eigen::Vector3d& p : points) {
     std::array<double, 3> depth{};
@@ -37,21 +37,22 @@ Profile measure_profile(std::span<const Eigen::Vector3d> points, const FacetCorn
       const double a = depth[(j + 1) % 3], b = depth[(j + 2) % 3];
       const double s = (a - b) / std::numbers::sqrt2, t = (a + b) / std::numbers::sqrt2;
       if (std::abs(s) >= reach_m || std::abs(t) >= 2 * reach_m) continue;
-      const auto bin = std::min(bins - 1, static_cast<std::size_t>((s / reach_m + 1) / 2 * bins));
+      const auto bin =
+          std::min(depth_bins - 1, static_cast<std::size_t>((s / reach_m + 1) / 2 * depth_bins));
       // A point that lies on neither surface (behind the silhouette, in front) says nothing.
       if (t - std::abs(s) > 0.45 * reach_m || t - std::abs(s) < -0.1 * reach_m) continue;
       sums.add(bin, t - std::abs(s));
       out.count[bin] += 1;
     }
   }
-  for (std::size_t k = 0; k < bins; ++k)
+  for (std::size_t k = 0; k < depth_bins; ++k)
     if (out.count[k] > 0) out.mean_t[k] = sums.total(k) / out.count[k];
   return out;
 }
 
 double misfit(const Profile& profile, double radius_m) {
   double sum = 0;
-  for (std::size_t k = 0; k < bins; ++k) {
+  for (std::size_t k = 0; k < depth_bins; ++k) {
     const double s = std::abs(profile.s_at(k));
     const bool round = s < radius_m / std::numbers::sqrt2;
     const double cut =

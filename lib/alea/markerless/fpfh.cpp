@@ -12,10 +12,10 @@ namespace alea {
 namespace {
 
 using std::numbers::pi;
-constexpr int bins = 11;
+constexpr int angle_bins = 11;
 
 int bin_of(double value, double low, double high) {
-  return std::clamp(static_cast<int>(bins * (value - low) / (high - low)), 0, bins - 1);
+  return std::clamp(static_cast<int>(angle_bins * (value - low) / (high - low)), 0, angle_bins - 1);
 }
 
 /// The angles alpha, phi, theta of a pair in its Darboux frame (their Equation 1), binned; the
@@ -37,13 +37,13 @@ void add_pair(Eigen::Vector3d p, Eigen::Vector3d n, Eigen::Vector3d q, Eigen::Ve
   const Eigen::Vector3d w = n.cross(v);
   const double alpha = v.dot(m), phi = n.dot(d), theta = std::atan2(w.dot(m), n.dot(m));
   histogram[static_cast<std::size_t>(bin_of(theta, -pi, pi))] += weight;
-  histogram[static_cast<std::size_t>(bins + bin_of(alpha, -1, 1))] += weight;
-  histogram[static_cast<std::size_t>(2 * bins + bin_of(phi, -1, 1))] += weight;
+  histogram[static_cast<std::size_t>(angle_bins + bin_of(alpha, -1, 1))] += weight;
+  histogram[static_cast<std::size_t>(2 * angle_bins + bin_of(phi, -1, 1))] += weight;
 }
 
 void scale_to_100(Fpfh& histogram) {
   for (int part = 0; part < 3; ++part) {
-    const auto begin = histogram.begin() + part * bins, end = begin + bins;
+    const auto begin = histogram.begin() + part * angle_bins, end = begin + angle_bins;
     float sum = 0;
     for (auto it = begin; it != end; ++it) sum += *it;
     if (sum > 0)
