@@ -38,7 +38,8 @@ struct BoardExtent {
 BoardExtent board_extent(const BoardSpec& board, std::span<const Eigen::Vector2d> places_m,
                          std::span<const float> intensity, const BoardFit& fit, double spacing_m);
 
-/// Refusal size_mismatch where the extent differs by more than 15 % of the side plus one spacing.
+/// Refusal size_mismatch where the extent differs by more than 15 % of two cells plus one spacing,
+/// and, where it is larger, three standard deviations of the blur.
 std::optional<Refusal> check_size(const BoardSpec& board, std::span<const Eigen::Vector2d> places_m,
                                   std::span<const float> intensity, const BoardFit& fit,
                                   double spacing_m);
