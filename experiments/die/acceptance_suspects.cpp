@@ -27,7 +27,7 @@ using experiments::die::ObservedPair;
 
 constexpr std::uint64_t own_faulty = 500, own_clean = 1000;
 
-enum class Fault { none, leaning, shifted };
+enum class PlantedFault { none, leaning, shifted };
 
 /// What an adjustment is given.
 struct Setting {
@@ -64,9 +64,9 @@ void add_witnesses(const ObservedPair& pair, RandomStream& stream,
 }
 
 /// Another box's side: turned by 2 deg about its centre, or 1 cm in front.
-void spoil(PlaneFit& fit, Fault fault, double azimuth) {
-  if (fault == Fault::shifted) fit.centroid_m += 0.01 * fit.plane.normal;
-  if (fault == Fault::leaning)
+void spoil(PlaneFit& fit, PlantedFault fault, double azimuth) {
+  if (fault == PlantedFault::shifted) fit.centroid_m += 0.01 * fit.plane.normal;
+  if (fault == PlantedFault::leaning)
     fit.plane.normal =
         (fit.plane.normal +
          std::tan(2 * deg) * fit.tangent * Eigen::Vector2d(std::cos(azimuth), std::sin(azimuth)))
@@ -76,7 +76,7 @@ void spoil(PlaneFit& fit, Fault fault, double azimuth) {
 }
 
 /// Whether the planted facet was flagged, or any where none was planted.
-bool flagged(const Setting& setting, Fault fault, std::uint64_t seed, std::uint64_t trial) {
+bool flagged(const Setting& setting, PlantedFault fault, std::uint64_t seed, std::uint64_t trial) {
   const EfficiencyCase geometry;
   const ObservedPair pair = observe_pair(geometry, seed, trial);
   const auto shared = shared_pips(pair.master, pair.slave);
@@ -88,7 +88,8 @@ bool flagged(const Setting& setting, Fault fault, std::uint64_t seed, std::uint6
   if (setting.shared_only)
     for (ObservedFacet& facet : scans[scan].die.facets)
       if (facet.pips == shared.at(stream.below(2))) wrong = &facet;
-  if (fault != Fault::none) spoil(wrong->fit, fault, 2 * std::numbers::pi * stream.uniform());
+  if (fault != PlantedFault::none)
+    spoil(wrong->fit, fault, 2 * std::numbers::pi * stream.uniform());
   AdjustmentOptions options;
   if (setting.shape_known) {
     options.shape = exact_shape(pair.shape);
@@ -100,22 +101,22 @@ bool flagged(const Setting& setting, Fault fault, std::uint64_t seed, std::uint6
   if (!found) return false;
   for (const FacetTest& test : found->tests) {
     if (!test.suspect || test.pips == 0) continue;
-    if (fault == Fault::none || (test.scan == scan && test.pips == wrong->pips)) return true;
+    if (fault == PlantedFault::none || (test.scan == scan && test.pips == wrong->pips)) return true;
   }
   return false;
 }
 
-void report_share(const Setting& setting, Fault fault, const Options& options,
+void report_share(const Setting& setting, PlantedFault fault, const Options& options,
                   const Report& report) {
-  const bool clean = fault == Fault::none;
+  const bool clean = fault == PlantedFault::none;
   std::vector<double> hits(options.trials_or(clean ? own_clean : own_faulty));
   parallel_chunks(hits.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t)
       hits[t] = flagged(setting, fault, options.seed, t) ? 1 : 0;
   });
-  const char* what = clean                     ? "false flags"
-                     : fault == Fault::leaning ? "a facet 2 deg off is flagged"
-                                               : "a facet 1 cm off is flagged";
+  const char* what = clean                            ? "false flags"
+                     : fault == PlantedFault::leaning ? "a facet 2 deg off is flagged"
+                                                      : "a facet 1 cm off is flagged";
   Cell cell = mean_cell(fmt::format("{}: {}", setting.name, what), hits,
                         clean ? at_most(0.01) : at_least(0.95));
   const auto n = static_cast<double>(hits.size());
@@ -130,7 +131,8 @@ void run_suspects(const Options& options, const Report& report) {
   for (const Setting& setting :
        std::array<Setting, 2>{{{"shape known, any facet", true, false},
                                {"shape free, a facet that both scans see", false, true}}})
-    for (const Fault fault : {Fault::leaning, Fault::shifted, Fault::none})
+    for (const PlantedFault fault :
+         {PlantedFault::leaning, PlantedFault::shifted, PlantedFault::none})
       report_share(setting, fault, options, report);
 }
 
