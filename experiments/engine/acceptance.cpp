@@ -54,7 +54,8 @@ std::string to_line(const Cell& cell) {
 
 std::vector<Topic> all_topics() {
   std::vector<Topic> topics;
-  for (const auto& of_issue : {die_topics(), checkerboard_topics(), markerless_topics(), sweep_topics()})
+  for (const auto& of_issue :
+       {die_topics(), checkerboard_topics(), markerless_topics(), sweep_topics()})
     topics.insert(topics.end(), of_issue.begin(), of_issue.end());
   return topics;
 }
