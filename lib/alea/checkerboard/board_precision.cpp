@@ -29,17 +29,20 @@ void add_precision(const BoardExpectation& expectation, std::span<const BoardSam
   };
   std::vector<Residual> residuals;
   residuals.reserve(samples.size());
-  Matrix slope = Matrix::Zero(), fisher = Matrix::Zero(), scatter = Matrix::Zero();
+  Matrix fisher = Matrix::Zero(), scatter = Matrix::Zero();
+  double kept = 0;
   for (const BoardSample& sample : samples) {
     const ExpectedIntensity model = expectation.at(expectation.on_board(sample.place));
     const double v = intensity_variance(fit, model);
     const double off = (sample.intensity - model.value) / std::sqrt(v);
     residuals.push_back({model.row, v, off});
-    const Matrix outer = (model.row / v) * model.row.transpose();
-    fisher += outer;
-    if (std::abs(off) <= board_huber) slope += outer;
+    fisher.noalias() += (model.row / v) * model.row.transpose();
+    kept += std::abs(off) <= board_huber;
   }
-  const Matrix inverse = inverse_over(which, slope);
+  // The mean of psi' stands for each: a matrix of the few points that are kept may be singular.
+  const double slope =
+      std::max(kept, 1.0) / static_cast<double>(std::max<std::size_t>(samples.size(), 1));
+  const Matrix inverse = inverse_over(which, slope * fisher);
   for (const Residual& one : residuals) {
     const double leverage = one.row.dot(inverse * one.row) / one.variance;
     const double psi = std::clamp(one.standardised, -board_huber, board_huber);
