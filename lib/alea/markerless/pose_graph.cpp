@@ -5,11 +5,12 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
 #include <array>
 
 #include "alea/core/error.hpp"
 #include "alea/markerless/loop_closure.hpp"
+#include "alea/markerless/selected_inverse.hpp"
 
 namespace alea {
 namespace {
@@ -105,15 +106,8 @@ std::vector<Matrix6d> covariances_of(const std::vector<RigidTransform>& poses,
   }
   Eigen::SparseMatrix<double> normal_matrix(free, free);
   normal_matrix.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(normal_matrix);
-  std::vector<Matrix6d> covariances(poses.size(), Matrix6d::Zero());
-  for (std::size_t s = 1; s < poses.size(); ++s) {
-    const auto at = static_cast<Eigen::Index>(6 * (s - 1));
-    Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(free, 6);
-    unit.middleRows(at, 6).setIdentity();
-    const Eigen::MatrixXd columns = solver.solve(unit);
-    covariances[s] = columns.middleRows(at, 6);
-  }
+  std::vector<Matrix6d> covariances = inverse_diagonal_blocks(normal_matrix);
+  covariances.insert(covariances.begin(), Matrix6d::Zero());
   return covariances;
 }
 

@@ -13,14 +13,17 @@
 namespace alea {
 namespace {
 
-IcpOptions gated(double gate_m, int iterations, double trim_share) {
+/// `kernel` none trims the worst pairs: it comes from afar, but a wide gate lets wrong pairs pull.
+/// Tukey's weights shut those out where the start is near.
+IcpOptions gated(double gate_m, int iterations, RobustKernel kernel) {
   IcpOptions options;
   options.objective = IcpObjective::point_to_plane;
   options.max_distance_m = gate_m;
   options.max_iterations = iterations;
   options.rotation_tolerance_rad = 1e-5;
   options.translation_tolerance_m = 1e-4;
-  options.trim_share = trim_share;
+  options.trim_share = kernel == RobustKernel::none ? 0.1 : 0;
+  options.kernel = kernel;
   options.normal_angle_rad = std::acos(0.7);
   options.oriented_normals = true;
   return options;
@@ -68,18 +71,25 @@ std::vector<PoseCandidate> refine_coarsely(const PreparedScan& fixed, const Prep
                                            std::vector<PoseCandidate> candidates,
                                            std::size_t count) {
   const double cell_m = std::max(fixed.cell_m, moving.cell_m);
-  const IcpOptions wide = gated(10 * cell_m, 10, 0.1), narrow = gated(4 * cell_m, 10, 0.1);
-  const IcpTarget target(fixed.coarse, wide);
+  const IcpTarget target(fixed.coarse, gated(10 * cell_m, 10, RobustKernel::none));
   EvidenceOptions evidence;
   evidence.agree_m = 2 * cell_m;
   evidence.use_probe = true;
   parallel_chunks(candidates.size(), 1, [&](std::size_t i, std::size_t) {
     PoseCandidate& candidate = candidates[i];
-    for (const IcpOptions& options : {wide, narrow})
-      candidate.fixed_from_moving =
-          icp(target, moving.probe, candidate.fixed_from_moving, options).target_from_source;
-    const PoseEvidence found = pose_evidence(fixed, moving, candidate.fixed_from_moving, evidence);
-    candidate.score = found.overlap() < 0.03 ? -1e9 : -found.conflict_ratio();
+    const RigidTransform start = candidate.fixed_from_moving;
+    candidate.score = -1e10;
+    for (const RobustKernel kernel : {RobustKernel::none, RobustKernel::tukey}) {
+      RigidTransform pose = start;
+      for (const IcpOptions& options :
+           {gated(10 * cell_m, 10, kernel), gated(4 * cell_m, 10, kernel)})
+        pose = icp(target, moving.probe, pose, options).target_from_source;
+      const PoseEvidence found = pose_evidence(fixed, moving, pose, evidence);
+      const double score = found.overlap() < 0.03 ? -1e9 : -found.conflict_ratio();
+      if (score <= candidate.score) continue;
+      candidate.score = score;
+      candidate.fixed_from_moving = pose;
+    }
   });
   return distinct(std::move(candidates), 2 * deg, 0.3, count);
 }
@@ -101,15 +111,15 @@ std::vector<PoseHypothesis> distinct_poses(const std::vector<PoseHypothesis>& hy
 }
 
 /// One ICP against the fine grid, then the evidence of all points.
-void refine(const PreparedScan& fixed, const PreparedScan& moving, const IcpTarget& target,
-            const Cloud& source, const IcpOptions& options, PoseHypothesis& hypothesis) {
-  const IcpResult result = icp(target, source, hypothesis.fixed_from_moving, options);
+PoseHypothesis refined(const PreparedScan& fixed, const PreparedScan& moving,
+                       const IcpTarget& target, const Cloud& source, const IcpOptions& options,
+                       const PoseHypothesis& start) {
+  const IcpResult result = icp(target, source, start.fixed_from_moving, options);
+  PoseHypothesis hypothesis;
+  hypothesis.source = start.source;
   hypothesis.fixed_from_moving = result.target_from_source;
   hypothesis.evidence = pose_evidence(fixed, moving, result.target_from_source, {});
-  hypothesis.information = result.information;
-  hypothesis.information_about_m = result.information_about_m;
-  hypothesis.normal_rmse_m = result.normal_rmse_m;
-  hypothesis.pairs = result.pairs;
+  return hypothesis;
 }
 
 }  // namespace
@@ -120,19 +130,25 @@ std::vector<PoseHypothesis> search_pose(const PreparedScan& fixed, const Prepare
   candidates = screen(fixed, moving, candidates, options);
   candidates = refine_coarsely(fixed, moving, std::move(candidates), options.judged);
   const double cell_m = std::max(fixed.cell_m, moving.cell_m);
-  const IcpOptions middle = gated(3.5 * cell_m, 15, 0.1), last = gated(1.2 * cell_m, 15, 0.05);
-  const IcpTarget target(fixed.fine, middle);
+  const IcpOptions trimmed = gated(3.5 * cell_m, 15, RobustKernel::none);
+  const IcpOptions weighted = gated(3.5 * cell_m, 15, RobustKernel::tukey);
+  const IcpOptions last = gated(1.2 * cell_m, 25, RobustKernel::tukey);
+  const IcpTarget target(fixed.fine, trimmed);
   std::vector<PoseHypothesis> hypotheses(candidates.size());
   parallel_chunks(candidates.size(), 1, [&](std::size_t i, std::size_t) {
-    hypotheses[i].fixed_from_moving = candidates[i].fixed_from_moving;
-    hypotheses[i].source = candidates[i].source;
-    refine(fixed, moving, target, moving.coarse, middle, hypotheses[i]);
+    PoseHypothesis start;
+    start.fixed_from_moving = candidates[i].fixed_from_moving;
+    start.source = candidates[i].source;
+    hypotheses[i] = refined(fixed, moving, target, moving.coarse, weighted, start);
+    const PoseHypothesis other = refined(fixed, moving, target, moving.coarse, trimmed, start);
+    if (less_contradicted(other, hypotheses[i])) hypotheses[i] = other;
   });
   std::stable_sort(hypotheses.begin(), hypotheses.end(), less_contradicted);
   hypotheses = distinct_poses(hypotheses);
-  parallel_chunks(std::min<std::size_t>(hypotheses.size(), 3), 1, [&](std::size_t i, std::size_t) {
-    refine(fixed, moving, target, moving.fine, last, hypotheses[i]);
-  });
+  parallel_chunks(
+      std::min(hypotheses.size(), options.finished), 1, [&](std::size_t i, std::size_t) {
+        hypotheses[i] = refined(fixed, moving, target, moving.fine, last, hypotheses[i]);
+      });
   std::stable_sort(hypotheses.begin(), hypotheses.end(), less_contradicted);
   return distinct_poses(hypotheses);
 }

@@ -16,6 +16,7 @@ struct PoseSearchOptions {
   std::size_t of_each_source = 8;  ///< candidates of each generator that are always refined
   std::size_t screened = 16;       ///< others: those that the probes contradict least
   std::size_t judged = 12;         ///< of those, judged by all points
+  std::size_t finished = 4;        ///< of those, the least contradicted, refined by all points
 };
 
 /// A refined pose with what speaks for and against it.
@@ -23,15 +24,12 @@ struct PoseHypothesis {
   RigidTransform fixed_from_moving;  ///< local frames
   PoseEvidence evidence;
   CandidateSource source = CandidateSource::identity;
-  Matrix6d information = Matrix6d::Zero();  ///< of the last iteration, see IcpResult
-  Eigen::Vector3d information_about_m = Eigen::Vector3d::Zero();
-  double normal_rmse_m = 0;
-  std::size_t pairs = 0;
 };
 
 /// Distinct poses of the moving scan, the least contradicted first: candidates from every
-/// generator, screened on the coarse grids, refined by trimmed point-to-plane ICP whose pairs must
-/// face the same way, and judged by pose_evidence.
+/// generator, screened on the coarse grids, refined by point-to-plane ICP, trimmed and under
+/// Tukey's weights (the less contradicted result stays), whose pairs must face the same way, and
+/// judged by pose_evidence.
 std::vector<PoseHypothesis> search_pose(const PreparedScan& fixed, const PreparedScan& moving,
                                         const PoseSearchOptions& options);
 

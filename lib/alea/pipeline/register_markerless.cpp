@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "alea/cloud/normals.hpp"
@@ -26,19 +27,90 @@ RigidTransform local_frames(const PreparedScan& fixed, const PreparedScan& movin
   return {own.rotation, own.translation - fixed.scanner_m + own.rotation * moving.scanner_m};
 }
 
-/// How many other poses are contradicted about as little as the first.
+bool is_determined(const PreparedScan& fixed, const PreparedScan& moving,
+                   const RigidTransform& pose, const AcceptanceOptions& options) {
+  const auto covariance = pose_covariance(fixed, moving, pose, pose.translation);
+  if (!covariance) return false;
+  const auto largest_sd = [](const Eigen::Matrix3d& block) {
+    return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(block).eigenvalues()[2]);
+  };
+  return largest_sd(covariance->covariance.topLeftCorner<3, 3>()) <
+             options.largest_rotation_sd_rad &&
+         largest_sd(covariance->covariance.bottomRightCorner<3, 3>()) <
+             options.largest_position_sd_m;
+}
+
+/// Root mean square offset of each point of a scan from the tangent plane of its nearest neighbour
+/// in the same scan: noise, curvature and what a pair of grids adds. Points of two scans that show
+/// the same surfaces are hardly further apart.
+double roughness_m(const PreparedScan& scan) {
+  constexpr std::size_t chunk = 2048;
+  struct Sum {
+    double squares = 0;
+    std::size_t count = 0;
+  };
+  std::vector<Sum> parts((scan.fine.size() + chunk - 1) / chunk);
+  parallel_chunks(scan.fine.size(), chunk, [&](std::size_t begin, std::size_t end) {
+    Sum& part = parts[begin / chunk];
+    for (std::size_t i = begin; i < end; ++i)
+      for (const Neighbour& near : scan.fine_index.nearest(scan.fine.positions[i], 2)) {
+        const Eigen::Vector3d normal = scan.fine.normals[near.index].cast<double>();
+        if (near.index == i || normal.dot(scan.fine.normals[i].cast<double>()) <= 0.7) continue;
+        const double off = normal.dot(scan.fine.positions[i] - scan.fine.positions[near.index]);
+        part.squares += off * off;
+        ++part.count;
+      }
+  });
+  Sum sum;
+  for (const Sum& part : parts) {
+    sum.squares += part.squares;
+    sum.count += part.count;
+  }
+  return sum.count > 0 ? std::sqrt(sum.squares / static_cast<double>(sum.count)) : 0;
+}
+
+/// The poses that fit as well as either scan fits itself and that their pairs determine: the others
+/// (ground on ground, a wall along a wall) claim nothing that could be true or false. The order
+/// stays.
+std::vector<PoseHypothesis> determined(const PreparedScan& fixed, const PreparedScan& moving,
+                                       const std::vector<PoseHypothesis>& hypotheses,
+                                       const AcceptanceOptions& options) {
+  // Twice, because a rough scan may meet a smooth one and a pose is not yet perfect.
+  const double largest_rmse_m = 2 * std::max(roughness_m(fixed), roughness_m(moving));
+  std::vector<std::uint8_t> is(hypotheses.size());
+  parallel_chunks(hypotheses.size(), 1, [&](std::size_t i, std::size_t) {
+    is[i] = hypotheses[i].evidence.normal_rmse_m <= largest_rmse_m &&
+            is_determined(fixed, moving, hypotheses[i].fixed_from_moving, options);
+  });
+  std::vector<PoseHypothesis> kept;
+  for (std::size_t i = 0; i < hypotheses.size(); ++i)
+    if (is[i]) kept.push_back(hypotheses[i]);
+  return kept;
+}
+
+/// Is a pose contradicted so much more than another that it is no rival of it?
+bool is_refuted(const PoseEvidence& pose, const PoseEvidence& by,
+                const AcceptanceOptions& options) {
+  const double ratio = pose.conflict_ratio(), best = by.conflict_ratio();
+  return ratio - best >= options.least_margin &&
+         (ratio + options.conflict_floor) / (best + options.conflict_floor) >= options.least_factor;
+}
+
+/// How many other poses are contradicted about as little as the first and fit about as well.
 int rivals(const std::vector<PoseHypothesis>& hypotheses, const AcceptanceOptions& options) {
-  const double best = hypotheses[0].evidence.conflict_ratio();
+  const PoseEvidence& best = hypotheses[0].evidence;
   int count = 0;
   for (std::size_t i = 1; i < hypotheses.size(); ++i) {
     const PoseEvidence& evidence = hypotheses[i].evidence;
-    const double ratio = evidence.conflict_ratio();
     // A pose that hardly touches the other scan is not contradicted either: that is no rival.
-    if (evidence.overlap() < std::min(options.least_overlap, hypotheses[0].evidence.overlap() / 2))
+    if (evidence.overlap() < std::min(options.least_overlap, best.overlap() / 2)) continue;
+    if (evidence.normal_rmse_m > options.largest_residual_factor * best.normal_rmse_m) continue;
+    // One that free space refuses for itself, by a margin, is none either.
+    const double ratio = evidence.conflict_ratio();
+    if (ratio > options.largest_conflict_ratio &&
+        ratio - best.conflict_ratio() >= options.least_margin)
       continue;
-    if (ratio - best < options.least_margin ||
-        (ratio + options.conflict_floor) / (best + options.conflict_floor) < options.least_factor)
-      ++count;
+    if (!is_refuted(evidence, best, options)) ++count;
   }
   return count;
 }
@@ -61,13 +133,21 @@ std::optional<Refusal> reason_to_refuse(const std::vector<PoseHypothesis>& hypot
         fmt::format("the scene is symmetric or too plain: {} poses fit about as well; give "
                     "--initial, or scan something that breaks the symmetry",
                     others + 1)};
-  if (best.conflict_ratio() > options.largest_conflict_ratio)
+  const double largest = std::min(options.largest_conflict_ratio,
+                                  options.largest_conflict_for_overlap * best.overlap());
+  if (best.conflict_ratio() > largest)
     return Refusal{
         RefusalCode::no_match,
         fmt::format("the best pose puts surfaces into space that the other scanner saw through "
                     "(conflict ratio {:.3f}, at most {:.3f}); do the scans show the same place?",
-                    best.conflict_ratio(), options.largest_conflict_ratio)};
+                    best.conflict_ratio(), largest)};
   return std::nullopt;
+}
+
+Refusal undetermined() {
+  return {RefusalCode::unobservable,
+          "the common surfaces leave a direction of motion open (one plane, a pipe, a corridor); "
+          "add a station that sees across it"};
 }
 
 MarkerlessReport report_of(const PreparedScan& fixed, const PreparedScan& moving,
@@ -93,10 +173,7 @@ void accept(const PreparedScan& fixed, const PreparedScan& moving, const PoseHyp
   const auto covariance =
       pose_covariance(fixed, moving, best.fixed_from_moving, about - fixed.scanner_m);
   if (!covariance) {
-    registration.refusal =
-        Refusal{RefusalCode::unobservable,
-                "the common surfaces leave a direction of motion open (one plane, a pipe, a "
-                "corridor); add a station that sees across it"};
+    registration.refusal = undetermined();
     return;
   }
   registration.master_from_slave = own_frames(fixed, moving, best.fixed_from_moving);
@@ -166,10 +243,12 @@ MarkerlessRegistration register_prepared(const PreparedScan& fixed, const Prepar
   PoseSearchOptions search;
   search.seed = options.seed;
   if (options.initial) search.initial = local_frames(fixed, moving, *options.initial);
-  const std::vector<PoseHypothesis> hypotheses = search_pose(fixed, moving, search);
+  const std::vector<PoseHypothesis> found = search_pose(fixed, moving, search);
+  const std::vector<PoseHypothesis> hypotheses =
+      determined(fixed, moving, found, options.acceptance);
   MarkerlessRegistration out;
   out.registration.method = "robust";
-  out.report = report_of(fixed, moving, hypotheses);
+  out.report = report_of(fixed, moving, hypotheses.empty() ? found : hypotheses);
   AmbiguityReport ambiguity;
   if (hypotheses.size() > 1) {
     ambiguity.alternatives = rivals(hypotheses, options.acceptance);
@@ -178,7 +257,11 @@ MarkerlessRegistration register_prepared(const PreparedScan& fixed, const Prepar
                                                (hypotheses[0].evidence.conflict_ratio() + floor));
   }
   out.registration.ambiguity = ambiguity;
-  out.registration.refusal = reason_to_refuse(hypotheses, options.acceptance);
+  const bool open =
+      !found.empty() && (hypotheses.empty() ||
+                         is_refuted(hypotheses[0].evidence, found[0].evidence, options.acceptance));
+  out.registration.refusal =
+      open ? undetermined() : reason_to_refuse(hypotheses, options.acceptance);
   if (!out.registration.refusal) accept(fixed, moving, hypotheses[0], out.registration);
   return out;
 }

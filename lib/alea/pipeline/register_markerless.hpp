@@ -28,9 +28,16 @@ struct PaperIcpOptions {
 struct AcceptanceOptions {
   double least_overlap = 0.08;  ///< share of the points that agree, mean of both scans
   double largest_conflict_ratio = 0.06;
-  double least_margin = 0.01;  ///< of the runner-up's conflict ratio over the winner's
-  double least_factor = 2;     ///< and as a factor, both raised by conflict_floor
+  /// And at most this times the overlap: scans that hardly meet hardly contradict each other.
+  double largest_conflict_for_overlap = 0.2;
+  /// Largest standard deviations of a pose that claims anything: 1 deg and 0.1 m are three of them.
+  double largest_rotation_sd_rad = 3.14159265358979323846 / 180 / 3;
+  double largest_position_sd_m = 0.1 / 3;  ///< of the moving scanner
+  double least_margin = 0.01;              ///< of the runner-up's conflict ratio over the winner's
+  double least_factor = 2;                 ///< and as a factor, both raised by conflict_floor
   double conflict_floor = 0.005;
+  /// A pose whose residuals are this many times the winner's does not fit about as well.
+  double largest_residual_factor = 3;
 };
 
 struct MarkerlessOptions {
