@@ -41,7 +41,7 @@ struct DieArguments {
   std::string chirality = "clockwise";
   double tilt_prior_deg = 0, level_sd_arcsec = 0;
   bool join_planes = false, levelled = false;
-  std::string resolve = "none";
+  std::string resolve = "none", weights = "noise";
   std::string near, master_origin, slave_origin;
   std::string check_planes_file, noise_file;
   std::string report_folder;
@@ -55,6 +55,8 @@ const std::map<std::string, DieMethod> methods{{"paper", DieMethod::paper},
                                                {"adjustment", DieMethod::adjustment}};
 const std::map<std::string, Refinement> refinements{
     {"none", Refinement::none}, {"planes", Refinement::planes}, {"icp", Refinement::icp}};
+const std::map<std::string, FacetWeights> facet_weights{
+    {"noise", FacetWeights::noise}, {"area", FacetWeights::area}, {"robust", FacetWeights::robust}};
 constexpr double smallest_edge_m = 0.02, largest_edge_m = 10;
 
 void check_edge(double edge_m, const char* option) {
@@ -108,6 +110,7 @@ DieRegistrationOptions registration_options(const DieArguments& arguments) {
     options.level_sd_rad = arguments.level_sd_arcsec * std::numbers::pi / 180 / 3600;
   options.join_planes = arguments.join_planes;
   options.levelled = arguments.levelled;
+  options.weights = facet_weights.at(arguments.weights);
   options.resolve_by_scene = arguments.resolve == "scene";
   options.near_m = point("--near", arguments.near);
   if (!arguments.check_planes_file.empty())
@@ -188,6 +191,11 @@ void add_die_options(CLI::App& app, DieArguments& a) {
   app.add_option("--chirality", a.chirality,
                  "How 1, 2, 3 run about their corner, seen from outside")
       ->check(CLI::IsMember({"clockwise", "counterclockwise", "any"}))
+      ->capture_default_str();
+  app.add_option("--facet-weights", a.weights,
+                 "Weights of a facet's points: noise (its model), area (for warped facets), robust "
+                 "(strays count less); not for the paper's methods")
+      ->check(CLI::IsMember({"noise", "area", "robust"}))
       ->capture_default_str();
   app.add_option("--resolve", a.resolve,
                  "Where the pips leave several orientations, or there are none (a blank cube): "

@@ -78,6 +78,36 @@ TEST(RegisterDie, ThreeSharedFacetsNeedNoLength) {
   EXPECT_TRUE(exact.master_from_slave->matrix().isApprox(wrong.master_from_slave->matrix(), 1e-10));
 }
 
+/// Rotation error (rad) of a registration of a die whose facets are bowed.
+double rotation_error_rad(const TwoScans& scans, FacetWeights weights) {
+  DieRegistrationOptions options = with_edge(0.5);
+  options.weights = weights;
+  const Registration result = register_die(scans.master, scans.slave, options);
+  EXPECT_FALSE(result.refusal);
+  return left_difference(scans.master_from_slave, *result.master_from_slave,
+                         result.covariance->about_m)
+      .head<3>()
+      .norm();
+}
+
+TEST(RegisterDie, AreaWeightsGiveWarpedFacetsOnePlaneFromBothStations) {
+  TwoStationCase warped;
+  warped.range_m = 3;
+  warped.step_rad = 2e-3;
+  warped.change_die = [](DieModel& model, int) {
+    for (FacetShape& facet : model.facets) facet.bow_m = 0.005;
+  };
+  const TwoScans scans = scan_twice(warped);
+  EXPECT_LT(rotation_error_rad(scans, FacetWeights::area),
+            0.5 * rotation_error_rad(scans, FacetWeights::noise));
+}
+
+TEST(RegisterDie, RobustWeightsChangeLittleWithoutStrays) {
+  const TwoScans scans = scan_twice({});
+  EXPECT_NEAR(rotation_error_rad(scans, FacetWeights::robust),
+              rotation_error_rad(scans, FacetWeights::noise), 2e-4);
+}
+
 TEST(RegisterDie, CalibrationFindsTheLengthOnPlanesThatDoNotCheck) {
   TwoStationCase room;
   room.walls = true;

@@ -35,7 +35,13 @@ DieFinderOptions finder_options(const DieRegistrationOptions& options,
   out.facets.fit.scanner_position = position;
   const bool orthogonal = is_published(options.method) || !position;
   out.facets.fit.method = orthogonal ? FitMethod::orthogonal : FitMethod::along_ray;
-  if (is_published(options.method)) out.facets.trim_m = 0.0;
+  if (is_published(options.method)) {
+    out.facets.trim_m = 0.0;
+    return out;
+  }
+  // Areas are seen from somewhere.
+  out.facets.fit.area_weights = options.weights == FacetWeights::area && position.has_value();
+  out.facets.fit.robust = options.weights == FacetWeights::robust;
   return out;
 }
 

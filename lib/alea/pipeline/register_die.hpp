@@ -30,6 +30,14 @@ const char* to_string(DieMethod method);
 /// Whether it is one of the published chains.
 bool is_published(DieMethod method);
 
+/// How the points of a facet are weighed in its fit (lib/alea/facet/README.md). The published
+/// methods know only equal weights.
+enum class FacetWeights {
+  noise,   ///< by the noise model: the most precise for flat facets
+  area,    ///< by the surface that a ray stands for: one plane for a warped facet from any station
+  robust,  ///< by the noise model, strays weighed down (Huber)
+};
+
 struct DieRegistrationOptions {
   DieMethod method = DieMethod::adjustment;
   PlaneDetector planes = PlaneDetector::cells;
@@ -60,7 +68,8 @@ struct DieRegistrationOptions {
   std::optional<double> tilt_prior_rad;   ///< standard deviation of the facets' tilts
   std::optional<Eigen::Vector3d> near_m;  ///< where the die is, roughly, in the master frame
   std::vector<Eigen::Vector3d>
-      check_plane_centroids_m;           ///< master frame; then the other planes calibrate
+      check_plane_centroids_m;  ///< master frame; then the other planes calibrate
+  FacetWeights weights = FacetWeights::noise;
   Refinement refine = Refinement::none;  ///< after the die, on the calibration planes
   NoiseModel noise;
   std::uint64_t seed = 1;
