@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "alea/core/error.hpp"
 #include "alea/io/atomic_file.hpp"
 #include "experiments/checkerboard/curves.hpp"
+#include "experiments/engine/folder.hpp"
 
 namespace alea::experiments::checkerboard {
 namespace {
@@ -191,11 +191,7 @@ const std::vector<Line>& lines() {
 }  // namespace
 
 std::vector<ResultTable> reproduce_checkerboard(const ReproductionOptions& options) {
-  std::error_code error;
-  std::filesystem::create_directories(options.out, error);
-  if (error)
-    throw input_error(fmt::format("{}: cannot make the folder ({}); give another --out",
-                                  options.out, error.message()));
+  make_folder(options.out);
   const std::uint64_t pairs = options.smoke ? 8 : 100;
   std::vector<Curve> curves;
   for (const Line& line : lines()) {

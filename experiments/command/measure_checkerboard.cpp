@@ -12,6 +12,7 @@
 #include "alea/io/cloud_file.hpp"
 #include "alea/pipeline/stopwatch.hpp"
 #include "alea/report/board_page.hpp"
+#include "experiments/command/json_parts.hpp"
 #include "experiments/command/measure.hpp"
 #include "experiments/command/reading.hpp"
 
@@ -74,8 +75,7 @@ nlohmann::json document(const Result<std::vector<BoardMeasurement>>& result, boo
       {"warnings", nlohmann::json::array()},
       {"timing_s", {{"read", read_s}, {"measure", measure_s}, {"total", read_s + measure_s}}}};
   if (!result) {
-    out["refusal"] = {{"code", to_string(result.refusal().code)},
-                      {"message", result.refusal().message}};
+    out["refusal"] = refusal_json(result.refusal());
     for (const char* key :
          {"centre_m", "covariance", "normal", "axes", "cell_m", "rmse_m", "colour_score", "bound"})
       out[key] = nullptr;

@@ -14,9 +14,9 @@
 #include "alea/report/plan_picture.hpp"
 #include "alea/simulate/scene_file.hpp"
 #include "experiments/command/command.hpp"
-#include "experiments/command/folder.hpp"
 #include "experiments/command/plan_json.hpp"
 #include "experiments/command/read_registration.hpp"
+#include "experiments/engine/folder.hpp"
 
 namespace alea::command {
 namespace {
@@ -168,7 +168,7 @@ int run(const PlanArguments& arguments) {
   plan.pairs = plan_of(plan);
   plan.facets = planned_facets(plan.scene, plan.request.assumptions);
   plan.positions = search(plan, make_progress(arguments.common));
-  make_folder(arguments.out);
+  experiments::make_folder(arguments.out);
   write_maps(plan, arguments.out, measured);
   plan.files.push_back((std::filesystem::path(arguments.out) / "plan.json").string());
   const nlohmann::json document = plan_json(plan);

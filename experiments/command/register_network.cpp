@@ -10,6 +10,7 @@
 #include "alea/core/version.hpp"
 #include "alea/io/cloud_file.hpp"
 #include "alea/pipeline/stopwatch.hpp"
+#include "experiments/command/json_parts.hpp"
 #include "experiments/command/reading.hpp"
 #include "experiments/command/register.hpp"
 
@@ -43,10 +44,8 @@ json pair_json(const NetworkPair& pair) {
            {"status", pair.refusal    ? "refused"
                       : pair.accepted ? "accepted"
                                       : "rejected"},
-           {"refusal", nullptr},
+           {"refusal", refusal_json(pair.refusal)},
            {"a_from_b", nullptr}};
-  if (pair.refusal)
-    out["refusal"] = {{"code", to_string(pair.refusal->code)}, {"message", pair.refusal->message}};
   if (pair.edge) out["a_from_b"] = rows_of(pair.edge->a_from_b.matrix());
   return out;
 }
@@ -65,16 +64,13 @@ json network_json(const NetworkArguments& arguments, const NetworkRegistration& 
   for (const NetworkPair& pair : network.pairs) pairs.push_back(pair_json(pair));
   json out{{"alea", version()},
            {"status", network.refusal ? "refused" : "registered"},
-           {"refusal", nullptr},
+           {"refusal", refusal_json(network.refusal)},
            {"method", "network"},
            {"seed", arguments.common.seed},
            {"warnings", json::array()},
            {"scans", scans},
            {"pairs", pairs},
            {"timing_s", {{"read", read_s}, {"total", total_s}}}};
-  if (network.refusal)
-    out["refusal"] = {{"code", to_string(network.refusal->code)},
-                      {"message", network.refusal->message}};
   return out;
 }
 

@@ -12,7 +12,7 @@
 #include "alea/simulate/scene_file.hpp"
 #include "alea/simulate/truth.hpp"
 #include "experiments/command/command.hpp"
-#include "experiments/command/folder.hpp"
+#include "experiments/engine/folder.hpp"
 
 namespace alea::command {
 namespace {
@@ -27,7 +27,7 @@ int run(const Simulate& simulate) {
   const ThreadLimit limit(simulate.common.threads);
   const Scene scene = load_scene(simulate.scene);
   const std::filesystem::path folder(simulate.out);
-  make_folder(folder);
+  experiments::make_folder(folder);
   const ProgressCallback progress = make_progress(simulate.common);
   std::vector<WrittenScan> scans;
   for (std::uint32_t i = 0; i < scene.stations.size(); ++i) {

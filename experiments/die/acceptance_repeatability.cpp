@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -10,6 +9,7 @@
 #include "alea/pipeline/register_die.hpp"
 #include "experiments/die/acceptance.hpp"
 #include "experiments/die/faulty_scene.hpp"
+#include "experiments/engine/shuffled_order.hpp"
 
 namespace alea::acceptance {
 namespace {
@@ -19,11 +19,8 @@ using experiments::die::Fault;
 using experiments::die::FaultyScans;
 
 Cloud shuffled(const Cloud& cloud, std::uint64_t seed, std::uint64_t number) {
-  std::vector<std::uint32_t> order(cloud.size());
-  std::iota(order.begin(), order.end(), 0u);
-  RandomStream random({seed, 26, number, 0, Purpose::experiment});
-  for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
-  return subset(cloud, order);
+  const RandomStream stream({seed, 26, number, 0, Purpose::experiment});
+  return subset(cloud, experiments::shuffled_order(cloud.size(), stream));
 }
 
 /// Every number of a registration; compared bit by bit.

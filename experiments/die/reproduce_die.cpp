@@ -1,25 +1,17 @@
 #include "experiments/die/reproduce_die.hpp"
 
-#include <fmt/format.h>
-
-#include <filesystem>
-
-#include "alea/core/error.hpp"
 #include "experiments/die/audit.hpp"
 #include "experiments/die/errata.hpp"
 #include "experiments/die/figures.hpp"
 #include "experiments/die/statements.hpp"
 #include "experiments/die/twin_tables.hpp"
+#include "experiments/engine/folder.hpp"
 #include "experiments/engine/pictures.hpp"
 
 namespace alea::experiments::die {
 
 Reproduction reproduce_die(const ReproductionOptions& options) {
-  std::error_code error;
-  std::filesystem::create_directories(options.out, error);
-  if (error)
-    throw input_error(fmt::format("{}: cannot make the folder ({}); give another --out",
-                                  options.out, error.message()));
+  make_folder(options.out);
   const PublishedTables published = load_published_tables();
   TwinTrialOptions trial;
   trial.seed = options.seed;

@@ -6,6 +6,7 @@
 
 #include "alea/core/error.hpp"
 #include "experiments/engine/crc32c.hpp"
+#include "experiments/engine/folder.hpp"
 
 namespace alea::experiments {
 namespace {
@@ -92,17 +93,14 @@ void add_to_cell(Database& database, std::uint64_t cell, std::uint64_t rows, std
 }
 
 NewStoreFile::NewStoreFile(const fs::path& folder) : path_(folder / TrialStore::file_name) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!fs::is_directory(folder))
-    throw input_error(fmt::format("{}: cannot be made a folder ({}); choose another --out",
-                                  folder.string(), error.message()));
+  make_folder(folder);
   if (fs::exists(path_))
     throw input_error(fmt::format(
         "{}: there is a store already; continue it with --resume or choose another --out",
         path_.string()));
   unfinished_ = folder / fmt::format(".{}.{}", TrialStore::file_name, ::getpid());
-  fs::remove(unfinished_, error);
+  std::error_code ignored;
+  fs::remove(unfinished_, ignored);
 }
 
 NewStoreFile::~NewStoreFile() {

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "alea/cloud/sampling.hpp"
 #include "alea/core/parallel.hpp"
 #include "alea/core/seed.hpp"
+#include "experiments/engine/shuffled_order.hpp"
 #include "experiments/engine/wilson.hpp"
 #include "experiments/markerless/acceptance.hpp"
 #include "experiments/markerless/twin_study.hpp"
@@ -77,14 +77,8 @@ void run_markerless_bits(const Options& options, const Report& report) {
   twin.step_rad = 8e-3;
   const TwinScans scans = scan_twin(bell_tower(twin), {0, 1}, options.seed);
   const auto shuffled = [&](const Cloud& cloud) {
-    RandomStream stream({options.seed, 6, 0, 0, Purpose::experiment});
-    std::vector<std::uint32_t> order(cloud.size());
-    std::iota(order.begin(), order.end(), 0u);
-    for (std::size_t i = order.size() - 1; i > 0; --i)
-      std::swap(order[i], order[stream.below(i + 1)]);
-    Cloud out = subset(cloud, order);
-    out.scanner_position = cloud.scanner_position;
-    return out;
+    const RandomStream stream({options.seed, 6, 0, 0, Purpose::experiment});
+    return subset(cloud, experiments::shuffled_order(cloud.size(), stream));
   };
   const auto pose = [&](const Cloud& fixed, const Cloud& moving, int threads) {
     const ThreadLimit limit(threads);

@@ -1,12 +1,10 @@
 #include "experiments/markerless/reproduce_markerless.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <filesystem>
 
-#include "alea/core/error.hpp"
 #include "alea/io/atomic_file.hpp"
+#include "experiments/engine/folder.hpp"
 #include "experiments/markerless/audit.hpp"
 #include "experiments/markerless/success.hpp"
 #include "experiments/markerless/twin_pictures.hpp"
@@ -97,11 +95,7 @@ void draw(const Study& study, const std::string& stem, const std::string& out) {
 }  // namespace
 
 std::vector<ResultTable> reproduce_markerless(const ReproductionOptions& options) {
-  std::error_code error;
-  std::filesystem::create_directories(options.out, error);
-  if (error)
-    throw input_error(fmt::format("{}: cannot make the folder ({}); give another --out",
-                                  options.out, error.message()));
+  make_folder(options.out);
   const PublishedTables published = load_published_tables();
   TwinOptions twin;
   twin.layout = options.seed;

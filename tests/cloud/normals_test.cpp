@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "alea/core/error.hpp"
 #include "alea/core/parallel.hpp"
 #include "alea/core/seed.hpp"
+#include "experiments/engine/shuffled_order.hpp"
 
 namespace alea {
 namespace {
@@ -59,11 +59,8 @@ TEST(Normals, HoldFarFromTheOrigin) {
 TEST(Normals, AreTheSameBitsForAnyOrderAndThreadCount) {
   const Cloud cloud = plane_and_sphere(3000, Eigen::Vector3d::Zero());
   const auto expected = estimate_normals(cloud, {});
-  RandomStream stream({4, 0, 0, 0, Purpose::test});
-  std::vector<std::uint32_t> order(cloud.size());
-  std::iota(order.begin(), order.end(), 0u);
-  for (std::size_t i = order.size() - 1; i > 0; --i)
-    std::swap(order[i], order[stream.below(i + 1)]);
+  const auto order =
+      experiments::shuffled_order(cloud.size(), RandomStream({4, 0, 0, 0, Purpose::test}));
   const ThreadLimit one(1);
   const auto shuffled = estimate_normals(subset(cloud, order), {});
   for (std::size_t i = 0; i < order.size(); ++i) EXPECT_EQ(shuffled[i], expected[order[i]]);

@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <map>
-#include <numeric>
 
 #include "alea/cloud/canonical_order.hpp"
 #include "alea/core/error.hpp"
 #include "alea/core/parallel.hpp"
 #include "alea/core/seed.hpp"
+#include "experiments/engine/shuffled_order.hpp"
 
 namespace alea {
 namespace {
@@ -28,14 +28,8 @@ Cloud random_cloud(int n) {
 }
 
 Cloud shuffled(const Cloud& cloud) {
-  RandomStream stream({6, 0, 0, 0, Purpose::test});
-  std::vector<std::uint32_t> order(cloud.size());
-  std::iota(order.begin(), order.end(), 0u);
-  for (std::size_t i = order.size() - 1; i > 0; --i)
-    std::swap(order[i], order[stream.below(i + 1)]);
-  Cloud out = subset(cloud, order);
-  out.scanner_position = cloud.scanner_position;
-  return out;
+  const RandomStream stream({6, 0, 0, 0, Purpose::test});
+  return subset(cloud, experiments::shuffled_order(cloud.size(), stream));
 }
 
 void expect_same(const Cloud& a, const Cloud& b) {

@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "alea/cloud/normals.hpp"
 #include "alea/core/error.hpp"
 #include "alea/core/parallel.hpp"
 #include "alea/core/seed.hpp"
+#include "experiments/engine/shuffled_order.hpp"
 
 namespace alea {
 namespace {
@@ -60,12 +60,8 @@ TEST(Iss, FindsTheCornerAndNothingInTheMiddleOfAFace) {
 
 TEST(Keypoints, AreTheSameForAnyOrderAndThreadCount) {
   const Cloud cloud = corner();
-  RandomStream stream({32, 0, 0, 0, Purpose::test});
-  std::vector<std::uint32_t> order(cloud.size());
-  std::iota(order.begin(), order.end(), 0u);
-  for (std::size_t i = order.size() - 1; i > 0; --i)
-    std::swap(order[i], order[stream.below(i + 1)]);
-  const Cloud shuffled = subset(cloud, order);
+  const RandomStream stream({32, 0, 0, 0, Purpose::test});
+  const Cloud shuffled = subset(cloud, experiments::shuffled_order(cloud.size(), stream));
   const auto harris = harris_keypoints(cloud, {}), iss = iss_keypoints(cloud, {});
   const ThreadLimit one(1);
   const auto same = [](const std::vector<Keypoint>& a, const std::vector<Keypoint>& b) {

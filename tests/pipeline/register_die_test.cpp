@@ -4,11 +4,11 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <numeric>
 
 #include "alea/core/error.hpp"
 #include "alea/core/parallel.hpp"
 #include "alea/core/seed.hpp"
+#include "experiments/engine/shuffled_order.hpp"
 #include "tests/pipeline/with_edge.hpp"
 #include "tests/support/die_scenes.hpp"
 
@@ -35,11 +35,8 @@ void expect_close_to_truth(const Registration& result, const TwoScans& scans) {
 }
 
 Cloud shuffled(const Cloud& cloud) {
-  std::vector<std::uint32_t> order(cloud.size());
-  std::iota(order.begin(), order.end(), 0u);
-  RandomStream stream({5, 0, 0, 0, Purpose::test});
-  for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[stream.below(i)]);
-  return subset(cloud, order);
+  const RandomStream stream({5, 0, 0, 0, Purpose::test});
+  return subset(cloud, experiments::shuffled_order(cloud.size(), stream));
 }
 
 TEST(RegisterDie, TwoSharedFacetsRegisterByTheLengthOfTheSharedEdge) {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 
 #include "alea/core/parallel.hpp"
 #include "alea/core/seed.hpp"
+#include "experiments/engine/shuffled_order.hpp"
 
 namespace alea::testing {
 namespace {
@@ -173,12 +173,9 @@ LabelledScan cube_scan(double edge_m, double range_m, double drop_m, double step
 }
 
 Shuffled shuffled(const Cloud& cloud, std::uint64_t seed) {
-  RandomStream stream(StreamKey{.seed = seed, .scan = 1, .purpose = Purpose::test});
+  const RandomStream stream(StreamKey{.seed = seed, .scan = 1, .purpose = Purpose::test});
   Shuffled out;
-  out.origin.resize(cloud.size());
-  std::iota(out.origin.begin(), out.origin.end(), 0u);
-  for (std::size_t i = out.origin.size(); i > 1; --i)
-    std::swap(out.origin[i - 1], out.origin[stream.below(i)]);
+  out.origin = experiments::shuffled_order(cloud.size(), stream);
   out.cloud = subset(cloud, out.origin);
   return out;
 }

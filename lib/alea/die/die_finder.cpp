@@ -9,7 +9,6 @@
 
 #include "alea/core/error.hpp"
 #include "alea/plane/exact_predicates.hpp"
-#include "alea/plane/region_decision.hpp"
 
 namespace alea {
 namespace {
@@ -257,13 +256,15 @@ DieSearch search_dice(const Cloud& cloud, const std::vector<PlaneRegion>& region
   return out;
 }
 
-namespace {
+double longest_edge_m(const DieFinderOptions& options) {
+  return sorted_edges(options)[2];
+}
 
 Result<std::vector<DieCandidate>> result_of(DieSearch search, std::size_t planes,
                                             const DieFinderOptions& options) {
   if (!search.accepted.empty()) return std::move(search.accepted);
   if (!search.rejected.empty()) return search.rejected.front().refusal;
-  const std::string size = text("%.3f m", sorted_edges(options)[2]);
+  const std::string size = text("%.3f m", longest_edge_m(options));
   if (!search.adjacent_pairs_m.empty())
     return Refusal{RefusalCode::too_few_facets,
                    "only two adjacent planes of about " + size +
@@ -274,33 +275,10 @@ Result<std::vector<DieCandidate>> result_of(DieSearch search, std::size_t planes
                                           "; check --edge, or narrow the search with --near"};
 }
 
-}  // namespace
-
 Result<std::vector<DieCandidate>> find_dice(const Cloud& cloud,
                                             const std::vector<PlaneRegion>& regions,
                                             const DieFinderOptions& options) {
   return result_of(search_dice(cloud, regions, options), regions.size(), options);
-}
-
-DecidedDice decide_dice(const Cloud& cloud, std::vector<PlaneRegion> regions,
-                        const DieFinderOptions& options, double tolerance_m, std::uint64_t seed) {
-  constexpr std::size_t most_places = 4;
-  constexpr double ball_share = 1.2;  // of the edge: holds a cube about the middle of an edge of it
-  DieSearch search = search_dice(cloud, regions, options);
-  std::vector<Eigen::Vector3d> places = search.adjacent_pairs_m;
-  const bool found = !search.accepted.empty();
-  const std::size_t planes = regions.size();
-  DecidedDice out{std::move(regions), result_of(std::move(search), planes, options)};
-  if (found) return out;
-  places.resize(std::min(places.size(), most_places));
-  for (const Eigen::Vector3d& place : places) {
-    std::vector<PlaneRegion> decided =
-        decide_regions(cloud, out.regions, {place, ball_share * sorted_edges(options)[2]},
-                       {.tolerance_m = tolerance_m, .seed = seed});
-    auto dice = find_dice(cloud, decided, options);
-    if (dice) return {std::move(decided), std::move(dice)};
-  }
-  return out;
 }
 
 }  // namespace alea

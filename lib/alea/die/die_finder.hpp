@@ -60,24 +60,18 @@ struct DieSearch {
 DieSearch search_dice(const Cloud& cloud, const std::vector<PlaneRegion>& regions,
                       const DieFinderOptions& options);
 
+/// The longest edge that is expected (m).
+double longest_edge_m(const DieFinderOptions& options);
+
+/// What a search over so many planes comes to: its accepted candidates, or why there are none.
+Result<std::vector<DieCandidate>> result_of(DieSearch search, std::size_t planes,
+                                            const DieFinderOptions& options);
+
 /// The accepted candidates, best first: two like dice are two candidates. Refusals of the nearest
 /// miss: no_die, too_few_facets (two facets of a die at most), dihedral, size_mismatch,
 /// too_few_points. Throws Error(usage) for an edge that is not positive.
 Result<std::vector<DieCandidate>> find_dice(const Cloud& cloud,
                                             const std::vector<PlaneRegion>& regions,
                                             const DieFinderOptions& options);
-
-/// The dice of a scan and the regions that they are made of.
-struct DecidedDice {
-  std::vector<PlaneRegion> regions;
-  Result<std::vector<DieCandidate>> dice;
-};
-
-/// find_dice, and where it finds none although two neighbouring planes of a die's size are there:
-/// CGAL's detector and the exact kernel decide about up to four such places (decide_regions), and
-/// the search is repeated with what they decided. The first search's refusal where that does not
-/// help. `tolerance_m` and `seed` of the detector.
-DecidedDice decide_dice(const Cloud& cloud, std::vector<PlaneRegion> regions,
-                        const DieFinderOptions& options, double tolerance_m, std::uint64_t seed);
 
 }  // namespace alea

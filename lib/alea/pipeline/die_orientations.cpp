@@ -55,10 +55,20 @@ RigidTransform rough_transform(const SeenCorner& master, const SeenCorner& slave
   return out;
 }
 
+/// A reading with the normals that it gives the facets.
+struct PlacedReading {
+  WeighedReading reading;
+  Eigen::Matrix3i normals;
+};
+
 /// The readings of a sighting; one that was settled has itself only.
-std::vector<WeighedReading> readings_of(const PipReading& reading) {
-  if (!reading.readings.empty()) return reading.readings;
-  return {{reading.pips, reading.hand, 0}};
+std::vector<PlacedReading> readings_of(const PipReading& reading) {
+  std::vector<PlacedReading> out;
+  for (const WeighedReading& each : reading.readings)
+    out.push_back({each, die_normals(each.pips, each.hand)});
+  if (out.empty())
+    out.push_back({{reading.pips, reading.hand, 0}, die_normals(reading.pips, reading.hand)});
+  return out;
 }
 
 }  // namespace
@@ -66,11 +76,11 @@ std::vector<WeighedReading> readings_of(const PipReading& reading) {
 std::vector<DieOrientation> die_orientations(const DieSighting& master, const DieSighting& slave,
                                              bool levelled) {
   std::map<Key, DieOrientation> by_key;
-  for (const WeighedReading& a : readings_of(master.reading))
-    for (const WeighedReading& b : readings_of(slave.reading)) {
+  const std::vector<PlacedReading> of_slave = readings_of(slave.reading);
+  for (const auto& [a, normals_a] : readings_of(master.reading))
+    for (const auto& [b, normals_b] : of_slave) {
       if (a.hand != b.hand) continue;
-      const Eigen::Matrix3i between =
-          die_normals(a.pips, a.hand).transpose() * die_normals(b.pips, b.hand);
+      const Eigen::Matrix3i between = normals_a.transpose() * normals_b;
       Key key;
       Eigen::Map<Eigen::Matrix3i>(key.data()) = between;
       const double margin = a.margin + b.margin;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "alea/die/assembly.hpp"
+#include "alea/die/die_decision.hpp"
 #include "alea/die/pips_chain.hpp"
 #include "alea/die/pips_rule.hpp"
 #include "alea/pipeline/stopwatch.hpp"

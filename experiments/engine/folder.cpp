@@ -1,4 +1,4 @@
-#include "experiments/command/folder.hpp"
+#include "experiments/engine/folder.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 #include "alea/core/error.hpp"
 
-namespace alea::command {
+namespace alea::experiments {
 
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
@@ -16,4 +16,4 @@ void make_folder(const std::filesystem::path& folder) {
                                   folder.string(), error.message()));
 }
 
-}  // namespace alea::command
+}  // namespace alea::experiments

@@ -2,9 +2,9 @@
 
 #include <filesystem>
 
-namespace alea::command {
+namespace alea::experiments {
 
 /// Makes the folder of an --out option. Throws Error(input) where it cannot.
 void make_folder(const std::filesystem::path& folder);
 
-}  // namespace alea::command
+}  // namespace alea::experiments
