@@ -53,9 +53,11 @@ void scale_to_100(Fpfh& histogram) {
 
 }  // namespace
 
-std::vector<Fpfh> fpfh(const Cloud& cloud, const NeighbourIndex& index, double radius_m) {
+std::vector<Fpfh> fpfh(const Cloud& cloud, const NeighbourIndex& index, double radius_m,
+                       FpfhWeights weights) {
   if (cloud.normals.size() != cloud.size())
     throw usage_error("fpfh: the cloud has no normals; estimate them first");
+  const bool is_square = weights == FpfhWeights::inverse_square;
   std::vector<std::vector<Neighbour>> near(cloud.size());
   std::vector<Fpfh> simple(cloud.size(), Fpfh{}), features(cloud.size(), Fpfh{});
   parallel_chunks(cloud.size(), 256, [&](std::size_t begin, std::size_t end) {
@@ -71,12 +73,13 @@ std::vector<Fpfh> fpfh(const Cloud& cloud, const NeighbourIndex& index, double r
   });
   parallel_chunks(cloud.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {  // their Equation 2
-      features[i] = simple[i];
+      if (!is_square) features[i] = simple[i];
       const auto count = static_cast<double>(std::max<std::size_t>(near[i].size(), 2) - 1);
       for (const Neighbour& other : near[i]) {
         if (other.squared_distance_m2 == 0) continue;
-        const auto weight =
-            static_cast<float>(1 / (count * std::sqrt(other.squared_distance_m2) / radius_m));
+        const auto weight = static_cast<float>(
+            is_square ? 1 / other.squared_distance_m2
+                      : 1 / (count * std::sqrt(other.squared_distance_m2) / radius_m));
         for (std::size_t k = 0; k < features[i].size(); ++k)
           features[i][k] += weight * simple[other.index][k];
       }

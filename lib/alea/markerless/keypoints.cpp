@@ -97,6 +97,7 @@ std::vector<Keypoint> iss_keypoints(const Cloud& cloud, const IssOptions& option
     for (std::size_t i = begin; i < end; ++i)
       near[i] = index.within(cloud.positions[i], options.salient_radius_m);
   });
+  const bool is_plain = options.scatter == IssScatter::plain_sum;
   std::vector<double> response(cloud.size(), none);
   parallel_chunks(cloud.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -105,11 +106,11 @@ std::vector<Keypoint> iss_keypoints(const Cloud& cloud, const IssOptions& option
       double weights = 0;
       for (const Neighbour& other : near[i]) {
         const Eigen::Vector3d d = cloud.positions[other.index] - cloud.positions[i];
-        const double weight = 1 / static_cast<double>(near[other.index].size());
+        const double weight = is_plain ? 1 : 1 / static_cast<double>(near[other.index].size());
         scatter += weight * d * d.transpose();
         weights += weight;
       }
-      const Eigenvalues values = eigenvalues_of(scatter / weights);
+      const Eigenvalues values = eigenvalues_of(is_plain ? scatter : scatter / weights);
       if (values[1] < options.largest_ratio_21 * values[2] &&
           values[0] < options.largest_ratio_32 * values[1] && values[0] > 0)
         response[i] = values[0];

@@ -35,17 +35,23 @@ struct HarrisOptions {
 /// for any thread count and order of the points. Throws Error(usage) without normals.
 std::vector<Keypoint> harris_keypoints(const Cloud& cloud, const HarrisOptions& options);
 
+/// How the scatter about a point weighs its neighbours.
+enum class IssScatter {
+  even_density,  ///< by the inverse of their own number of neighbours, over the sum of the weights
+  plain_sum      ///< all alike and not divided, as in the Point Cloud Library: dense places win
+};
+
 struct IssOptions {
   double salient_radius_m = 0.6;
   double suppression_radius_m = 0.4;
   double largest_ratio_21 = 0.975;  ///< of the second eigenvalue to the first
   double largest_ratio_32 = 0.975;  ///< of the third to the second
   std::size_t least_neighbours = 5;
+  IssScatter scatter = IssScatter::even_density;
 };
 
 /// Intrinsic shape signatures: Zhong 2009, doi 10.1109/ICCVW.2009.5457637. The response is the
-/// third eigenvalue of the scatter about the point, neighbours weighed by the inverse of their own
-/// number of neighbours. Sorted as above.
+/// third eigenvalue of the scatter about the point (m^2). Sorted as above.
 std::vector<Keypoint> iss_keypoints(const Cloud& cloud, const IssOptions& options);
 
 }  // namespace alea
