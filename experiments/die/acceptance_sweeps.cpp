@@ -3,32 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ctime>
-#include <filesystem>
 #include <functional>
 
 #include "alea/core/angle.hpp"
 #include "alea/core/parallel.hpp"
 #include "experiments/engine/build_info.hpp"
 #include "experiments/engine/sweep_acceptance.hpp"
-#include "experiments/engine/sweep_run.hpp"
 
 namespace alea::acceptance {
 namespace {
 
 using experiments::SweepSpec;
 using experiments::TrialRow;
-using experiments::TrialStore;
-
-/// A committed sweep with as many trials as asked for and these estimators.
-SweepSpec committed(const std::string& name, std::uint64_t trials,
-                    const std::vector<std::string>& estimators) {
-  SweepSpec spec = experiments::load_sweep(
-      experiments::data_dir() + "/experiments/die/sweeps/" + name + ".toml", false);
-  spec.trials = trials;
-  spec.estimators = estimators;
-  return spec;
-}
 
 /// Rows by cell, trial and estimator.
 using SweepRows = std::vector<std::vector<std::vector<TrialRow>>>;
@@ -83,7 +69,7 @@ void report_slope(const Slope& wanted, const Options& options, const Report& rep
   constexpr std::uint64_t own_trials = 300;
   constexpr std::size_t groups = 10;
   const std::uint64_t trials = options.trials_or(own_trials);
-  SweepSpec spec = committed(wanted.name, trials, wanted.estimators);
+  SweepSpec spec = committed_sweep(wanted.name, trials, wanted.estimators);
   std::erase_if(spec.axes[0].values, [&](const experiments::SweepValue& value) {
     const double x = std::get<double>(value);
     return x < wanted.low || x > wanted.high;
@@ -129,6 +115,15 @@ void report_slope(const Slope& wanted, const Options& options, const Report& rep
 
 }  // namespace
 
+experiments::SweepSpec committed_sweep(const std::string& name, std::uint64_t trials,
+                                       const std::vector<std::string>& estimators) {
+  SweepSpec spec = experiments::load_sweep(
+      experiments::data_dir() + "/experiments/die/sweeps/" + name + ".toml", false);
+  spec.trials = trials;
+  if (!estimators.empty()) spec.estimators = estimators;
+  return spec;
+}
+
 void run_slopes(const Options& options, const Report& report) {
   const Limit linear = within(1, 0.03);
   const std::vector<std::string> both{"known_shape", "closed_form"};
@@ -139,7 +134,7 @@ void run_slopes(const Options& options, const Report& report) {
 
 void run_sweep_ranges(const Options& options, const Report& report) {
   const SweepSpec spec =
-      committed("effective_range", options.trials_or(2), {"closed_form", "known_shape"});
+      committed_sweep("effective_range", options.trials_or(2), {"closed_form", "known_shape"});
   const SweepRows rows = run_rows(spec);
   const std::array<std::array<double, 2>, 2> expected{{{6.1, 8.5}, {12.5, 21.6}}};  // by die
   for (std::size_t edge = 0; edge < 2; ++edge) {
@@ -178,7 +173,7 @@ void run_leak_curves(const Options& options, const Report& report) {
                                                           {.228, .479, .893, 1.88},
                                                           {0, 0, 0, 0}}};
   const std::uint64_t trials = options.trials_or(1000);
-  const SweepSpec spec = committed("leak", trials, rules);
+  const SweepSpec spec = committed_sweep("leak", trials, rules);
   const SweepRows rows = run_rows(spec);
   for (std::size_t e = 0; e < rules.size(); ++e) {
     for (std::uint64_t cell = 0; cell < spec.cells(); ++cell) {
@@ -203,56 +198,6 @@ void run_leak_curves(const Options& options, const Report& report) {
               Judgement::point});
     }
   }
-}
-
-void run_trial_times(const Options& options, const Report& report) {
-  const std::uint64_t trials = options.trials_or(15);
-  const ThreadLimit one(1);
-  const SweepSpec spec = committed("range_noise", trials, {"closed_form"});
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / fmt::format("alea-time-{}", std::clock());
-  double sum_s = 0, least_s = 1e9;
-  std::uint64_t n = 0;
-  const std::clock_t start = std::clock();  // CPU time of the process
-  {
-    TrialStore store = TrialStore::create(folder, spec, {});
-    store.begin_run(experiments::this_run());
-    run_sweep(store, {});
-  }
-  const double process_s = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  {
-    TrialStore store = TrialStore::read(folder);
-    experiments::Statement rows(store.database(), "SELECT duration_s FROM trials");
-    for (; rows.next(); ++n) {
-      sum_s += rows.real(0);
-      least_s = std::min(least_s, rows.real(0));
-    }
-  }
-  std::filesystem::remove_all(folder);
-  const double mean_ms = 1e3 * sum_s / static_cast<double>(n);
-  report({"a trial of two scans of 20,000 points, CPU time, mean",
-          mean_ms,
-          {1e3 * least_s, mean_ms},
-          at_most(25),
-          n,
-          "ms",
-          Judgement::point});
-  const double minutes = mean_ms * 1e-3 * 10000 / 2 / 60;
-  report({"10,000 trials of the noise sweep on two cores",
-          minutes,
-          {minutes, minutes},
-          at_most(3),
-          n,
-          "min",
-          Judgement::point});
-  const double overhead = 100 * (process_s - sum_s) / process_s;
-  report({"engine: CPU time beside the trials",
-          overhead,
-          {overhead, overhead},
-          at_most(2),
-          n,
-          "%",
-          Judgement::point});
 }
 
 }  // namespace alea::acceptance

@@ -5,7 +5,6 @@
 
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <thread>
@@ -14,6 +13,7 @@
 #include "alea/core/parallel.hpp"
 #include "alea/core/seed.hpp"
 #include "experiments/engine/comparable_rows.hpp"
+#include "experiments/engine/scratch_folder.hpp"
 #include "experiments/engine/sweep_acceptance.hpp"
 #include "experiments/engine/sweep_export.hpp"
 #include "experiments/engine/sweep_run.hpp"
@@ -24,34 +24,14 @@ namespace {
 namespace fs = std::filesystem;
 using experiments::all_rows;
 using experiments::comparable_rows;
+using experiments::ScratchFolder;
 using experiments::Shard;
 using experiments::SweepRunOptions;
 using experiments::SweepSpec;
 using experiments::TrialStore;
 
-/// A folder of its own, removed at the end.
-class Scratch {
- public:
-  Scratch() {
-    std::string name = (fs::temp_directory_path() / "alea-acceptance-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr)
-      throw input_error(name + ": cannot make a folder for the experiment; is the disk full?");
-    path_ = name;
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
 /// A sweep of some seconds: four cells of small scans.
-fs::path sweep_file(const Scratch& scratch, std::uint64_t trials) {
+fs::path sweep_file(const ScratchFolder& scratch, std::uint64_t trials) {
   const fs::path file = scratch.path() / "sweep.toml";
   std::ofstream(file) << "schema = 1\nname = \"acceptance\"\nexperiment = \"die\"\n"
                          "estimators = [\"closed_form\", \"paper\"]\n"
@@ -119,7 +99,7 @@ void run_to(const fs::path& folder, const SweepSpec& spec, const Shard& shard,
 
 void run_killed_sweeps(const Options& options, const Report& report) {
   const std::uint64_t kills = options.trials_or(20);
-  const Scratch scratch;
+  const ScratchFolder scratch;
   const fs::path file = sweep_file(scratch, 250), whole = scratch.path() / "whole";
   const auto start = std::chrono::steady_clock::now();
   if (wait_for(start_sweep(file, whole)) != 0) throw input_error("the undisturbed sweep failed");
@@ -146,7 +126,7 @@ void run_killed_sweeps(const Options& options, const Report& report) {
 
 void run_damaged_stores(const Options& options, const Report& report) {
   const std::uint64_t tries = options.trials_or(200), flips = tries * 3 / 4;
-  const Scratch scratch;
+  const ScratchFolder scratch;
   const fs::path good = scratch.path() / "good", bad = scratch.path() / "bad";
   run_to(good, experiments::load_sweep(sweep_file(scratch, 60), false), {}, {});
   const std::string bytes = read_bytes(good / TrialStore::file_name);
@@ -182,7 +162,7 @@ void run_damaged_stores(const Options& options, const Report& report) {
 }
 
 void run_orders(const Options& options, const Report& report) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   const SweepSpec spec = experiments::load_sweep(sweep_file(scratch, options.trials_or(60)), false);
   run_to(scratch.path() / "whole", spec, {}, {});
   const std::string rows = comparable_rows(scratch.path() / "whole");

@@ -1,13 +1,21 @@
 #pragma once
 
+#include <cstdint>
+#include <string>
 #include <vector>
 
 #include "experiments/engine/acceptance.hpp"
+#include "experiments/engine/sweep_spec.hpp"
 
 namespace alea::acceptance {
 
 /// The topics of the sweeps, in the order in which they run.
 std::vector<Topic> sweep_topics();
+
+/// A sweep of experiments/die/sweeps at its full grid, with as many trials a cell as asked for and
+/// these estimators (none: its own).
+experiments::SweepSpec committed_sweep(const std::string& name, std::uint64_t trials,
+                                       const std::vector<std::string>& estimators);
 
 /// Issue sweeps, line 1: kill -9 at 20 random moments, then --resume.
 void run_killed_sweeps(const Options& options, const Report& report);
