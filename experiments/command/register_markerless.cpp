@@ -21,6 +21,8 @@ struct MarkerlessArguments {
   std::string fixed, moving;
   std::string method = "robust";
   std::string objective = "point_to_plane";
+  std::string keypoints = "none";
+  double keypoint_radius_m = 0.3;
   bool levelled = false;
   std::string initial;
   double grid_m = 0.05;
@@ -29,6 +31,20 @@ struct MarkerlessArguments {
 };
 
 constexpr double smallest_grid_m = 0.001, largest_grid_m = 10;
+constexpr double smallest_radius_m = 0.01, largest_radius_m = 10;
+
+void set_keypoints(const MarkerlessArguments& arguments, PaperIcpOptions& paper) {
+  if (!(arguments.keypoint_radius_m >= smallest_radius_m &&
+        arguments.keypoint_radius_m <= largest_radius_m))
+    throw usage_error(fmt::format("--keypoint-radius: {} m; give metres from {} to {}",
+                                  arguments.keypoint_radius_m, smallest_radius_m,
+                                  largest_radius_m));
+  if (arguments.keypoints != "none" && arguments.method != "paper")
+    throw usage_error("--keypoints belongs to --method paper; the robust method finds its own");
+  if (arguments.keypoints == "harris") paper.keypoints = PaperKeypoints::harris;
+  if (arguments.keypoints == "iss") paper.keypoints = PaperKeypoints::iss;
+  paper.keypoint_radius_m = arguments.keypoint_radius_m;
+}
 
 MarkerlessOptions registration_options(const MarkerlessArguments& arguments) {
   MarkerlessOptions options;
@@ -44,6 +60,7 @@ MarkerlessOptions registration_options(const MarkerlessArguments& arguments) {
                     arguments.grid_m, smallest_grid_m, largest_grid_m));
   if (arguments.objective == "point_to_point")
     options.paper.objective = IcpObjective::point_to_point;
+  set_keypoints(arguments, options.paper);
   if (!arguments.initial.empty()) options.initial = read_transform(arguments.initial);
   return options;
 }
@@ -71,9 +88,14 @@ nlohmann::json report_json(const MarkerlessReport& report) {
                             {"overlap", other.overlap},
                             {"conflict_ratio", other.conflict_ratio},
                             {"source", other.source}});
-  return {{"overlap_fixed", report.overlap_fixed},   {"overlap_moving", report.overlap_moving},
-          {"conflict_ratio", report.conflict_ratio}, {"rmse_m", report.rmse_m},
-          {"iterations", report.iterations},         {"alternatives", alternatives}};
+  return {{"overlap_fixed", report.overlap_fixed},
+          {"overlap_moving", report.overlap_moving},
+          {"conflict_ratio", report.conflict_ratio},
+          {"rmse_m", report.rmse_m},
+          {"iterations", report.iterations},
+          {"keypoints_fixed", report.keypoints_fixed},
+          {"keypoints_moving", report.keypoints_moving},
+          {"alternatives", alternatives}};
 }
 
 int run(const MarkerlessArguments& arguments) {
@@ -131,6 +153,14 @@ void add_register_markerless(CLI::App& parent, int& exit_code) {
       ->capture_default_str();
   app->add_option("--objective", a.objective, "paper: what ICP minimises")
       ->check(CLI::IsMember({"point_to_point", "point_to_plane"}))
+      ->capture_default_str();
+  app->add_option("--keypoints", a.keypoints,
+                  "paper: ICP of these points of the grid alone, the step that the study describes "
+                  "and its numbers do not contain")
+      ->check(CLI::IsMember({"none", "harris", "iss"}))
+      ->capture_default_str();
+  app->add_option("--keypoint-radius", a.keypoint_radius_m,
+                  "paper: neighbours of Harris's response (m); ISS takes twice it")
       ->capture_default_str();
   app->add_option("--fixed-origin", a.fixed_origin, "Scanner position in FIXED: X,Y,Z (m)");
   app->add_option("--moving-origin", a.moving_origin, "Scanner position in MOVING: X,Y,Z (m)");

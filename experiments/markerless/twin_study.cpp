@@ -5,6 +5,7 @@
 
 #include "alea/cloud/neighbours.hpp"
 #include "alea/cloud/sampling.hpp"
+#include "alea/pipeline/register_by_paper.hpp"
 #include "alea/simulate/scanner.hpp"
 
 namespace alea::experiments::markerless {
@@ -43,15 +44,12 @@ PoseError pose_error(const RigidTransform& estimate, const RigidTransform& truth
 
 double rmse_at(const Cloud& fixed, const Cloud& moving, const RigidTransform& fixed_from_moving,
                const PaperIcpOptions& options) {
-  const auto sampled = [&](const Cloud& cloud) {
-    Cloud sample = options.cell_m > 0 ? grid_average(cloud, options.cell_m) : cloud;
-    sample.normals.clear();
-    return sample;
-  };
   IcpOptions icp_options;
   icp_options.objective = IcpObjective::point_to_point;
   icp_options.max_iterations = 0;
-  return icp(sampled(fixed), sampled(moving), fixed_from_moving, icp_options).rmse_m;
+  const PaperScan target = prepare_paper_scan(fixed, options, false);
+  const PaperScan source = prepare_paper_scan(moving, options, false);
+  return icp(target.registered(), source.registered(), fixed_from_moving, icp_options).rmse_m;
 }
 
 std::vector<PaperTrial> run_paper(const TwinScans& scans, std::size_t reference,

@@ -31,7 +31,8 @@ struct PoseError {
 };
 PoseError pose_error(const RigidTransform& estimate, const RigidTransform& truth);
 
-/// Root mean square of the nearest-neighbour distances of all points at a pose, as ICP reports it.
+/// Root mean square of the nearest-neighbour distances of what ICP pairs, at a pose, as it reports
+/// it.
 double rmse_at(const Cloud& fixed, const Cloud& moving, const RigidTransform& fixed_from_moving,
                const PaperIcpOptions& options);
 
@@ -43,6 +44,7 @@ struct PaperTrial {
   double rmse_m = 0, rmse_at_truth_m = 0;
   double overlap = 0, overlap_at_truth = 0;  ///< share of the moving points
   int iterations = 0;
+  std::size_t keypoints_moving = 0;  ///< where the options ask for them
   double time_s = 0;
 };
 

@@ -112,6 +112,17 @@ TEST_F(MarkerlessCommand, ThePaperMethodNeverRefusesAndHasNoCovariance) {
   EXPECT_LE(result["markerless"]["iterations"].get<int>(), 20);
 }
 
+TEST_F(MarkerlessCommand, TheKeypointStepIsAVariantOfThePaperMethod) {
+  const ProgramRun run = markerless({"--method", "paper", "--keypoints", "iss", "--json", "-"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const json report = json::parse(run.out)["markerless"];
+  EXPECT_GT(report["keypoints_fixed"].get<int>(), 6);
+  EXPECT_LT(report["keypoints_fixed"].get<int>(), 2000);
+  const ProgramRun few = markerless({"--method", "paper", "--keypoints", "harris", "--grid", "2"});
+  EXPECT_EQ(few.exit_code, 4) << few.err;
+  EXPECT_NE(few.err.find("keypoints"), std::string::npos) << few.err;
+}
+
 TEST_F(MarkerlessCommand, ScansOfDifferentPlacesAreRefused) {
   Cloud elsewhere;  // a lone sphere
   RandomStream stream({10, 0, 0, 0, Purpose::test});
@@ -133,6 +144,8 @@ TEST_F(MarkerlessCommand, WrongUsageAndBadInputAreToldApart) {
   EXPECT_EQ(markerless({"--method", "magic"}).exit_code, 2);
   EXPECT_EQ(markerless({"--grid=-1"}).exit_code, 2);
   EXPECT_EQ(markerless({"--grid=nan"}).exit_code, 2);
+  EXPECT_EQ(markerless({"--keypoints", "harris"}).exit_code, 2);
+  EXPECT_EQ(markerless({"--method", "paper", "--keypoint-radius=0"}).exit_code, 2);
   EXPECT_EQ(markerless({"--initial", file("none.txt")}).exit_code, 3);
   EXPECT_EQ(markerless({"--method", "paper", "--json", "/nonexistent-folder/a.json"}).exit_code, 3);
   std::ofstream(file("not_a_cloud.ply")) << "hello\n";

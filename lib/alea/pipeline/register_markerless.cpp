@@ -5,11 +5,10 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "alea/cloud/normals.hpp"
-#include "alea/cloud/sampling.hpp"
 #include "alea/core/error.hpp"
 #include "alea/core/parallel.hpp"
 #include "alea/markerless/pose_covariance.hpp"
+#include "alea/pipeline/register_by_paper.hpp"
 #include "alea/pipeline/stopwatch.hpp"
 #include "alea/transform/reference_point.hpp"
 
@@ -178,62 +177,6 @@ void accept(const PreparedScan& fixed, const PreparedScan& moving, const PoseHyp
   }
   registration.master_from_slave = own_frames(fixed, moving, best.fixed_from_moving);
   registration.covariance = TransformCovariance{covariance->covariance, about};
-}
-
-/// Share of the moving points that have a fixed point within 0.1 m.
-double overlap_at(const NeighbourIndex& fixed, const Cloud& moving, const RigidTransform& pose) {
-  std::vector<std::uint8_t> near(moving.size());
-  parallel_chunks(moving.size(), 4096, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      near[i] = fixed.nearest_one(pose * moving.positions[i], 0.1).has_value();
-  });
-  std::size_t count = 0;
-  for (const std::uint8_t one : near) count += one;
-  return static_cast<double>(count) / static_cast<double>(std::max<std::size_t>(moving.size(), 1));
-}
-
-Cloud paper_sample(const Cloud& cloud, const PaperIcpOptions& options) {
-  Cloud sample = options.cell_m > 0 ? grid_average(cloud, options.cell_m) : cloud;
-  sample.normals.clear();
-  return sample;
-}
-
-MarkerlessRegistration register_by_paper(const Cloud& fixed, const Cloud& moving,
-                                         const MarkerlessOptions& options) {
-  const PaperIcpOptions& paper = options.paper;
-  Stopwatch stopwatch;
-  Cloud target = paper_sample(fixed, paper);
-  const Cloud source = paper_sample(moving, paper);
-  const double sampling_s = stopwatch.lap_s();
-  if (paper.objective == IcpObjective::point_to_plane)
-    for (const Eigen::Vector3d& n : estimate_normals(target, {paper.normal_neighbours, {}}))
-      target.normals.push_back(n.cast<float>());
-  IcpOptions icp_options;
-  icp_options.objective = paper.objective;
-  icp_options.max_iterations = paper.max_iterations;
-  icp_options.rotation_tolerance_rad = paper.rotation_tolerance_rad;
-  icp_options.translation_tolerance_m = paper.translation_tolerance_m;
-  icp_options.settled_change = 0;
-  const IcpResult result =
-      icp(target, source, options.initial.value_or(RigidTransform{}), icp_options);
-  const double icp_s = stopwatch.lap_s();
-
-  MarkerlessRegistration out;
-  out.registration.method = "paper";
-  out.registration.master_from_slave = result.target_from_source;
-  out.report.rmse_m = result.rmse_m;
-  out.report.iterations = result.iterations;
-  out.report.overlap_moving =
-      overlap_at(NeighbourIndex(target.positions), source, result.target_from_source);
-  out.report.overlap_fixed =
-      overlap_at(NeighbourIndex(source.positions), target, result.target_from_source.inverse());
-  out.registration.timing_s = {
-      {"sample", sampling_s}, {"icp", icp_s}, {"total", sampling_s + icp_s}};
-  if (!result.converged())
-    out.registration.warnings.push_back(
-        fmt::format("no_convergence: ICP stopped by its {} after {} iterations",
-                    to_string(result.stop), result.iterations));
-  return out;
 }
 
 }  // namespace

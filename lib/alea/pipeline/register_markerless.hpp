@@ -14,6 +14,10 @@ namespace alea {
 
 enum class MarkerlessMethod { paper, robust };
 
+/// What the orientation study's ICP pairs: its text describes Harris keypoints, its numbers are
+/// those of all points of the grid.
+enum class PaperKeypoints { none, harris, iss };
+
 /// The orientation study's chain: grid average, then ICP from identity over all pairs.
 struct PaperIcpOptions {
   double cell_m = 0.05;  ///< of the grid average; 0: every point
@@ -22,6 +26,9 @@ struct PaperIcpOptions {
   int max_iterations = 20;
   double rotation_tolerance_rad = 0.5 * 3.14159265358979323846 / 180;
   double translation_tolerance_m = 0.01;
+  PaperKeypoints keypoints = PaperKeypoints::none;
+  /// Of Harris's neighbours; 4/3 of it suppresses ISS's, twice it is salient.
+  double keypoint_radius_m = 0.3;
 };
 
 /// When a pose is reported and when it is refused.
@@ -61,7 +68,8 @@ struct MarkerlessReport {
   double overlap_fixed = 0, overlap_moving = 0;  ///< share of the points of a scan on the other
   double conflict_ratio = 0;
   double rmse_m = 0;
-  int iterations = 0;                               ///< paper
+  int iterations = 0;                                     ///< paper
+  std::size_t keypoints_fixed = 0, keypoints_moving = 0;  ///< paper, where it asks for them
   std::vector<MarkerlessAlternative> alternatives;  ///< other poses, the least contradicted first
 };
 
@@ -72,8 +80,9 @@ struct MarkerlessRegistration {
 
 /// Two scans of the same place without any target in; the transform between their frames out.
 /// `robust` refuses (ambiguous_target, low_overlap, no_match, unobservable) where the data cannot
-/// support a pose; `paper` never does. Same bits for any thread count and order of the points.
-/// Throws Error(usage) for an empty cloud. lib/alea/markerless/README.md.
+/// support a pose; `paper` does where a scan has too few keypoints (too_few_points), else never.
+/// Same bits for any thread count and order of the points. Throws Error(usage) for an empty cloud.
+/// lib/alea/markerless/README.md.
 MarkerlessRegistration register_markerless(const Cloud& fixed, const Cloud& moving,
                                            const MarkerlessOptions& options);
 
