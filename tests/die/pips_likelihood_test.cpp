@@ -34,6 +34,16 @@ Score score(const die::PipTrialOptions& options, int trials, const PipReaderOpti
   return score;
 }
 
+void keep_every(std::size_t step, FacetImageInput& image) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < image.uv_m.size(); i += step, ++kept) {
+    image.uv_m[kept] = image.uv_m[i];
+    image.intensity[kept] = image.intensity[i];
+  }
+  image.uv_m.resize(kept);
+  image.intensity.resize(kept);
+}
+
 TEST(PipsLikelihood, ReadsEveryOrientationAtSixMetres) {
   EXPECT_EQ(score(quick_pips(), 60).right, 60);
 }
@@ -139,6 +149,24 @@ TEST(PipsLikelihood, OneFacetThatContradictsTheOthersIsRefused) {
     if (hand_of(shown)) continue;
     EXPECT_FALSE(reading) << shown[0] << shown[1] << shown[2];
   }
+}
+
+TEST(PipsLikelihood, AClearFacetDoesNotAskMoreOfSparseOnes) {
+  die::PipTrialOptions options = quick_pips();
+  options.range_m = 4;
+  options.noise_over_contrast = 0.05;
+  int once_refused = 0;
+  for (int t = 0; t < 30; ++t) {
+    die::PipTrial trial = die::make_pip_trial(options, likelihood_key(t));
+    const auto clear = static_cast<std::size_t>(t % 3);
+    for (std::size_t k = 0; k < 3; ++k)
+      if (k != clear) keep_every(40, trial.images[k]);
+    const auto reading = read_pips(trial.images, 1);
+    ASSERT_TRUE(reading) << t << reading.refusal().message;
+    EXPECT_EQ(reading->pips, trial.pips) << t;
+    once_refused += reading->margin < reading->needed_margin ? 1 : 0;
+  }
+  EXPECT_GE(once_refused, 3);  // 5 % of the clear facet's gain is more than the others can give
 }
 
 TEST(PipsLikelihood, TheHandIsReadEvenWhereItIsNotTheExpectedOne) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -132,6 +133,22 @@ TEST(FacetFit, FewPointsAreRefusedAndPipsCanBeMasked) {
 }
 
 // The share of R that the touching ray hides, at head-on, 45 and grazing incidence.
+TEST(FacetFit, AGrazingSideWhoseColumnsLieFarApartIsMeasuredToItsEnd) {
+  for (const double turn_deg : {32.0, 33.0, 34.0, 35.0, 36.0, 37.0}) {
+    DieModel model;
+    model.scene_from_die.rotation =
+        Eigen::AngleAxisd(turn_deg * std::numbers::pi / 180, Eigen::Vector3d::UnitZ())
+            .toRotationMatrix();
+    const DieScan scan = scan_die(model, 4, 1.7e-3);
+    const auto result = fit_facets(scan.cloud, die_facets_of(scan), at_origin());
+    ASSERT_TRUE(result) << result.refusal().message;
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_NEAR(result->edges_m[k], 0.5, 0.03) << turn_deg;
+      EXPECT_LT(std::abs(result->edges_m[k] - 0.5), 4 * result->edges_sd_m[k]) << turn_deg;
+    }
+  }
+}
+
 TEST(FacetExtent, HiddenShareOfARounding) {
   EXPECT_NEAR(hidden_share(0), 0, 1e-12);
   EXPECT_NEAR(hidden_share(std::numbers::pi / 4), 0.5858, 1e-4);

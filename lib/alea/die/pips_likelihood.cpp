@@ -74,9 +74,23 @@ std::array<FacetEvidence, 3> gather_evidence(const std::array<PipRaster, 3>& ras
   return facets;
 }
 
+double needed_margin(double gain, const PipReaderOptions& options) {
+  return std::max(options.min_margin, options.min_margin_share * gain);
+}
+
+/// The best reading's gain on the facets where another differs: a facet that both read alike says
+/// nothing between them, however clear it is.
+double gain_against(const PipHypothesis& best, const PipHypothesis& rival,
+                    const FacetTables& tables) {
+  double gain = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (rival.pips[k] != best.pips[k]) gain += tables[k].gain[best.contrast][best.pips[k] - 1];
+  return gain;
+}
+
 /// Posterior of each facet's pips, the margin over the best rival and the rivals by their margins.
 void compare(const PipHypothesis& best, const std::vector<PipHypothesis>& rivals,
-             PipReading& reading) {
+             const FacetTables& tables, const PipReaderOptions& options, PipReading& reading) {
   reading.margin = std::numeric_limits<double>::infinity();
   double total = 0;
   std::array<double, 3> agreeing{};
@@ -86,10 +100,11 @@ void compare(const PipHypothesis& best, const std::vector<PipHypothesis>& rivals
     total += odds;
     for (std::size_t k = 0; k < 3; ++k)
       if (rival.pips[k] == best.pips[k]) agreeing[k] += odds;
-    reading.readings.push_back({rival.pips, rival.hand, margin});
+    const double needed = needed_margin(gain_against(best, rival, tables), options);
+    reading.readings.push_back({rival.pips, rival.hand, margin, needed});
     if (rival.pips == best.pips) continue;
     reading.margin = std::min(reading.margin, margin);
-    if (margin < reading.needed_margin) ++reading.alternatives;
+    if (margin < needed) ++reading.alternatives;
   }
   std::stable_sort(
       reading.readings.begin(), reading.readings.end(),
@@ -108,10 +123,6 @@ std::vector<PipHypothesis> of_hand(std::vector<PipHypothesis> hypotheses, Chiral
   return hypotheses;
 }
 
-double needed_margin(const PipHypothesis& best, const PipReaderOptions& options) {
-  return std::max(options.min_margin, options.min_margin_share * best.gain);
-}
-
 /// The readings among which the best must stand out: those of the known hand, unless the other hand
 /// wins clearly.
 std::vector<PipHypothesis> rivals_of(const std::vector<PipHypothesis>& hypotheses,
@@ -119,25 +130,33 @@ std::vector<PipHypothesis> rivals_of(const std::vector<PipHypothesis>& hypothese
   if (!options.chirality) return hypotheses;
   const std::vector<PipHypothesis> known = of_hand(hypotheses, *options.chirality);
   const PipHypothesis& best = best_of(hypotheses);
-  const bool other_hand_wins = best.gain - best_of(known).gain > needed_margin(best, options);
+  const bool other_hand_wins = best.gain - best_of(known).gain > needed_margin(best.gain, options);
   return other_hand_wins ? of_hand(hypotheses, best.hand) : known;
 }
 
-std::optional<Refusal> refuse_reading(const PipReading& reading, double gain,
-                                      const PipReaderOptions& options) {
+/// Whether the facets that say something else by themselves say it clearly.
+bool contradicted(const PipReading& reading, const PipReaderOptions& options) {
+  double alone = 0, together = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto& gain = reading.facets[k].gain;
+    const double most = *std::max_element(gain.begin(), gain.end());
+    const double read = gain[static_cast<std::size_t>(reading.pips[k]) - 1];
+    if (most > read) alone += most, together += read;
+  }
+  return alone - together > 2 * needed_margin(alone, options);
+}
+
+std::optional<Refusal> refuse_reading(const PipReading& reading, const PipReaderOptions& options) {
   constexpr double most_unexplained = 0.4;
   bool pips = true;
-  double contradiction = -gain;
-  for (const FacetEvidence& facet : reading.facets) {
+  for (const FacetEvidence& facet : reading.facets)
     pips = pips && facet.places_wrong <= 1 && facet.unexplained <= most_unexplained;
-    contradiction += *std::max_element(facet.gain.begin(), facet.gain.end());
-  }
   if (reading.alternatives > 0 && !options.keep_ambiguous)
     return Refusal{
         RefusalCode::pips_ambiguous,
         std::to_string(reading.alternatives) +
             " other readings explain the pips about as well: scan from nearer or denser"};
-  if (contradiction > 2 * reading.needed_margin)
+  if (contradicted(reading, options))
     return Refusal{RefusalCode::pips_ambiguous,
                    "the three facets contradict each other: no orientation of a die explains all"};
   if (!pips)
@@ -176,17 +195,17 @@ Result<PipReading> read_pips(const std::array<FacetImageInput, 3>& images, int o
   if (reading.blank && !options.keep_ambiguous)
     return Refusal{RefusalCode::pips_unreadable,
                    "the facets carry no readable pips: a blank cube, or too few points on it"};
-  reading.needed_margin = needed_margin(best, options);
+  reading.needed_margin = needed_margin(best.gain, options);
   reading.pips = best.pips;
   reading.hand = best.hand;
   reading.dark_pips = best.contrast == dark_pips;
-  compare(best, rivals, reading);
+  compare(best, rivals, lattices[best.lattice], options, reading);
   const Chirality other =
       best.hand == Chirality::clockwise ? Chirality::counterclockwise : Chirality::clockwise;
   reading.hand_margin = best.gain - best_of(of_hand(hypotheses, other)).gain;
   reading.facets = gather_evidence(rasters, ordered, lattices[best.lattice], best, options);
   if (!reading.blank)
-    if (auto refusal = refuse_reading(reading, best.gain, options)) return *refusal;
+    if (auto refusal = refuse_reading(reading, options)) return *refusal;
   if (orientation < 0) swap_last_two(reading);
   return reading;
 }

@@ -15,8 +15,8 @@ struct PipReaderOptions {
   std::optional<Chirality> chirality = Chirality::clockwise;
   double footprint_m = 0.008;     ///< diameter of the laser spot at the die
   double frame_jitter_m = 0.004;  ///< sd of the facet's frame (corner, edges) about the true one
-  /// Log-likelihood by which the best reading must beat every other, and the share of the best
-  /// reading's own gain over a blank die that it must beat them by.
+  /// Log-likelihood by which the best reading must beat every other, and the share of its own gain
+  /// over blank facets, on the facets that the other reads differently, that it must beat it by.
   double min_margin = 6;
   double min_margin_share = 0.05;
   double min_gain = 20;  ///< log-likelihood of the best reading over a blank die
@@ -29,7 +29,8 @@ struct PipReaderOptions {
 struct WeighedReading {
   std::array<int, 3> pips{};  ///< of the facets in the order given
   Chirality hand = Chirality::clockwise;
-  double margin = 0;  ///< log-likelihood of the best reading over this one
+  double margin = 0;         ///< log-likelihood of the best reading over this one
+  double needed_margin = 0;  ///< it is no alternative where its margin is not below this
 };
 
 /// What one facet shows by itself.
@@ -53,7 +54,7 @@ struct PipReading {
   Chirality hand = Chirality::clockwise;
   double margin = 0;         ///< log-likelihood over the runner-up among the readings considered
   double hand_margin = 0;    ///< log-likelihood over the best reading of the other hand
-  double needed_margin = 0;  ///< a reading that is less likely by more is no alternative
+  double needed_margin = 0;  ///< over a reading that differs in all three facets
   int alternatives = 0;      ///< other readings within the required margin
   bool blank = false;        ///< no pips at all: every reading is as likely as the others
   bool dark_pips = true;     ///< false: light pips on dark facets

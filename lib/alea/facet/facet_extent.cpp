@@ -67,7 +67,8 @@ double end_of_stretch(const Footprints& points, int axis, double rough_m, double
   return static_cast<double>(end + 1) * bin_m;
 }
 
-/// Spacing of the points along an edge (m): from the area that a step of the grid covers.
+/// Largest spacing of the points along an edge (m), from the area that a step of the grid covers:
+/// that of the grid's lines where they run along the other edge, as columns do on an upright die.
 Eigen::Vector2d spacing_of(const Footprints& points, const FacetCorner& corner, int k,
                            const Eigen::Vector2d& rough_m, const ExtentOptions& options) {
   const Eigen::Vector3d &e_u = corner.edges[(k + 1) % 3], &e_v = corner.edges[(k + 2) % 3];
@@ -84,10 +85,11 @@ Eigen::Vector2d spacing_of(const Footprints& points, const FacetCorner& corner, 
   const double area = 0.36 * rough_m.prod() * e_u.cross(e_v).norm();
   const double step = covered > 0 ? std::sqrt(area / covered) : rough_m.minCoeff() / ray.norm() / 4;
   const Eigen::Vector3d towards = ray.normalized();
-  const auto along = [&](const Eigen::Vector3d& edge) {
-    return step * ray.norm() / std::max(0.02, edge.cross(towards).norm());
+  const double facing = std::max(0.02, std::abs(e_u.cross(e_v).dot(towards)));
+  const auto across_lines_along = [&](const Eigen::Vector3d& other) {
+    return step * ray.norm() * other.cross(towards).norm() / facing;
   };
-  return {along(e_u), along(e_v)};
+  return {across_lines_along(e_v), across_lines_along(e_u)};
 }
 
 /// Incidence (rad) at a far border, in the plane across that border.

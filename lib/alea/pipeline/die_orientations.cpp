@@ -86,7 +86,8 @@ std::vector<DieOrientation> die_orientations(const DieSighting& master, const Di
       const double margin = a.margin + b.margin;
       const auto [known, is_new] = by_key.try_emplace(key);
       if (is_new || margin < known->second.margin)
-        known->second = {a.pips, b.pips, margin, {}, std::nullopt};
+        known->second = {a.pips, b.pips,      margin, std::max(a.needed_margin, b.needed_margin),
+                         {},     std::nullopt};
     }
   const SeenCorner in_master = seen_corner(master), in_slave = seen_corner(slave);
   std::vector<DieOrientation> out;
@@ -101,13 +102,12 @@ std::vector<DieOrientation> die_orientations(const DieSighting& master, const Di
   return out;
 }
 
-std::size_t supported_orientations(const std::vector<DieOrientation>& orientations,
-                                   const DieSighting& master, const DieSighting& slave) {
-  const double needed = std::max(master.reading.needed_margin, slave.reading.needed_margin);
-  const auto end = std::find_if(
-      orientations.begin(), orientations.end(),
-      [&](const DieOrientation& each) { return each.margin > 0 && each.margin >= needed; });
-  return static_cast<std::size_t>(end - orientations.begin());
+std::size_t supported_orientations(const std::vector<DieOrientation>& orientations) {
+  const auto last =
+      std::find_if(orientations.rbegin(), orientations.rend(), [](const DieOrientation& each) {
+        return each.margin <= 0 || each.margin < each.needed_margin;
+      });
+  return static_cast<std::size_t>(orientations.rend() - last);
 }
 
 DieSighting relabelled(const DieSighting& sighting, const std::array<int, 3>& pips) {

@@ -114,7 +114,7 @@ Scored in_orientation(const DieSighting& master, const DieSighting& slave,
 Result<std::vector<Scored>> orient(const DieSighting& master, const DieSighting& slave,
                                    const DieRegistrationOptions& options) {
   const std::vector<DieOrientation> all = die_orientations(master, slave, options.levelled);
-  const std::size_t supported = supported_orientations(all, master, slave);
+  const std::size_t supported = supported_orientations(all);
   // Readings of different hands have no orientation in common: the hand is refused further on.
   if (all.empty() && !options.levelled) {
     const Result<DieTransform> transform = transform_by_die(master, slave, options);

@@ -75,7 +75,7 @@ std::optional<AmbiguityReport> open_orientations(const ScanSighting& master,
   const DieSighting *a = best_sighting(master), *b = best_sighting(slave);
   if (a == nullptr || b == nullptr) return std::nullopt;
   const std::vector<DieOrientation> all = die_orientations(*a, *b, levelled);
-  const std::size_t supported = supported_orientations(all, *a, *b);
+  const std::size_t supported = supported_orientations(all);
   if (supported < 2) return std::nullopt;
   return AmbiguityReport{static_cast<int>(supported) - 1,
                          std::min(a->reading.margin, b->reading.margin), false, reported(all)};
