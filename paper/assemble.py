@@ -218,6 +218,37 @@ def die_numbers(die):
     return numbers
 
 
+def markerless_numbers(folder):
+    if not folder.is_dir():
+        return {}
+    def value(table, row, column):
+        """The one number of a table's row and column."""
+        return next(float(line["ours_median"]) for line in rows_of(folder / f"{table}.csv")
+                    if line["row"] == row and line["column"] == column)
+    def total(table, column):
+        return sum(float(line["ours_median"]) for line in rows_of(folder / f"{table}.csv") if line["column"] == column)
+    percent = lambda value: f"{100 * value:.0f}"
+    audit = rows_of(folder / "audit.csv")
+    numbers = {**verdict_numbers(folder, "Mark"),
+               "MarkClosedPairs": f"{sum(float(r['ours_median']) for r in audit if r['column'].startswith('pairs that close')):.0f}",
+               "MarkLargestFall": significant(max(float(r["ours_median"]) for r in audit
+                                                  if r["column"].startswith("fall of the counts"))),
+               "MarkOmegaPrinted": significant(value("audit", "equation 4", "largest error of omega as printed")),
+               "MarkGridRatio": significant(value("table1", "grid over all points", "ratio of RMSE at the truth"), 2),
+               "MarkAreaRmse": significant(value("success", "RMSE of all points", "area under ROC"), 2),
+               "MarkAreaConflict": significant(value("success", "free-space conflict ratio", "area under ROC"), 2),
+               "MarkRight": f"{total('robust', 'right'):.0f}", "MarkRefused": f"{total('robust', 'refused'):.0f}",
+               "MarkWrong": f"{total('robust', 'wrong'):.0f}"}
+    for twin, table, name in (("bell_tower", "table3", "Tower"), ("lighthouse", "table4", "Lighthouse")):
+        pairs = sorted(rows_of(folder / f"{twin}_pairs.csv"), key=lambda pair: float(pair["rmse_m"]))
+        for pair, which in ((pairs[0], "Lowest"), (pairs[-1], "Highest")):
+            numbers[f"Mark{name}{which}"] = f"{pair['fixed']}--{pair['moving']}"
+        numbers[f"Mark{name}True"] = percent(value(table, "all pairs", "true poses (1 deg, 0.1 m)"))
+        numbers[f"Mark{name}Below"] = percent(
+            value(table, "all pairs", "RMSE of the estimate below RMSE of the truth"))
+    return numbers
+
+
 def program_numbers(results):
     project = (HERE.parent / "CMakeLists.txt").read_text()
     version = project.split("project(alea VERSION ")[1].split()[0]
@@ -234,7 +265,8 @@ def main():
     results, work = map(pathlib.Path, sys.argv[1:])
     sweeps = results / "sweeps"
     numbers = {**program_numbers(results), **die_numbers(results / "die"),
-               **checkerboard_numbers(results / "checkerboard"), **sweep_numbers(sweeps)}
+               **checkerboard_numbers(results / "checkerboard"), **markerless_numbers(results / "markerless"),
+               **sweep_numbers(sweeps)}
     (work / "numbers.tex").write_text("".join(f"\\newcommand{{\\{name}}}{{{value}}}\n" for name, value in numbers.items()))
     chapters = ""
     for paper in PAPERS:

@@ -62,6 +62,7 @@ void add_acceptance(CLI::App& app, int& exit_code) {
   sub->add_option("topic", options->topic, "all, an issue (die, ...) or one topic")
       ->capture_default_str();
   sub->add_option("--trials", options->trials, "Trials a cell (0: as the acceptance line says)")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   add_common_options(*sub, options->common);
   sub->callback([options, &exit_code] { exit_code = run_acceptance(*options); });

@@ -35,6 +35,8 @@ void print_bar(Bar& bar, std::uint64_t done, std::uint64_t total, double elapsed
     fmt::print(stderr, "\r{:<24} [{:#<{}}{:.<{}}] {:3.0f} %  {:.3g}/s  {:.0f} s left \x1b[K",
                bar.stage, "", filled, "", width - filled, share * 100, rate, remaining_s);
     if (done >= total) fmt::print(stderr, "\n");
+  } else if (elapsed_s <= 0) {
+    fmt::print(stderr, "{}: {} of {}\n", bar.stage, done, total);
   } else {
     fmt::print(stderr, "{}: {} of {} ({:.3g}/s, {:.0f} s left)\n", bar.stage, done, total, rate,
                remaining_s);
@@ -51,7 +53,9 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
                  "Threads (0: all cores); the result is the same for any number")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  app.add_option("--seed", options.seed, "Seed of every random choice")->capture_default_str();
+  app.add_option("--seed", options.seed, "Seed of every random choice")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   app.add_flag("--quiet", options.quiet, "No progress on standard error");
 }
 

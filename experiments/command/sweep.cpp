@@ -11,6 +11,7 @@
 #include "alea/core/error.hpp"
 #include "alea/core/parallel.hpp"
 #include "experiments/command/command.hpp"
+#include "experiments/engine/configuration.hpp"
 #include "experiments/engine/sweep_run.hpp"
 
 namespace alea::command {
@@ -38,11 +39,15 @@ TrialStore open_store(const Sweep& sweep, const SweepSpec& spec, const Shard& sh
   if (!sweep.resume || !std::filesystem::exists(folder / TrialStore::file_name))
     return TrialStore::create(folder, spec, shard);
   TrialStore store = TrialStore::resume(folder);
-  if (store.configuration() != configuration_of(spec) || !(store.shard() == shard))
-    throw input_error(fmt::format(
-        "{}: made by another configuration (sweep file, --smoke, --seed, --shard or version of "
-        "alea); choose another --out, or run with the old one",
-        (folder / TrialStore::file_name).string()));
+  std::string difference = configuration_difference(store.configuration(), configuration_of(spec));
+  if (difference.empty() && !(store.shard() == shard))
+    difference =
+        fmt::format("shard is {} there and {} now", to_text(store.shard()), to_text(shard));
+  if (!difference.empty())
+    throw input_error(
+        fmt::format("{}: made by another configuration ({}); choose another --out, or run with the "
+                    "old one",
+                    (folder / TrialStore::file_name).string(), difference));
   return store;
 }
 

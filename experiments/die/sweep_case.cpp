@@ -1,5 +1,8 @@
 #include "experiments/die/sweep_case.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -45,8 +48,13 @@ NoiseModel scaled_noise(double range_noise_m) {
 
 RigidTransform station_pose(const DieCase& setting, double azimuth_rad) {
   const double above_m = scanner_height_m - setting.edge_m / 2;
-  if (setting.range_m <= std::abs(above_m))
-    throw usage_error("sweep of the die: range_m must exceed the scanner's height over the die");
+  const double least_m = std::max(std::abs(above_m), setting.edge_m * std::sqrt(0.75));
+  if (setting.range_m <= least_m)
+    throw usage_error(
+        fmt::format("range_m = {:g} with edge_m = {:g}: the scanner, {:g} m up, would stand over "
+                    "or in the die; "
+                    "give more than {:.3g}",
+                    setting.range_m, setting.edge_m, scanner_height_m, least_m));
   const double distance_m = std::sqrt(setting.range_m * setting.range_m - above_m * above_m);
   return station_at(distance_m, azimuth_rad, scanner_height_m, setting.step_rad).scene_from_scan;
 }

@@ -152,6 +152,7 @@ SweepExperiment die_sweep() {
     experiment.estimators.push_back(estimator.name);
   experiment.extra_columns = {"ring10_error_m", "bound_ring10_m"};
   experiment.make_cell = make_die_cell;
+  experiment.check = [](const SweepSettings& settings) { die_case_of(settings); };
   return experiment;
 }
 

@@ -64,10 +64,11 @@ struct SweepExperiment {
   std::vector<SweepParameter> parameters;
   std::vector<std::string> estimators;
   std::vector<std::string> extra_columns;
-  /// Throws Error(usage) for settings that go not together.
   std::unique_ptr<SweepCell> (*make_cell)(const SweepSettings& settings,
                                           const std::vector<std::string>& estimators,
                                           std::uint64_t seed);
+  /// Throws Error(usage) for settings that go not together, before anything runs; may be null.
+  void (*check)(const SweepSettings& settings) = nullptr;
 };
 
 /// Every experiment, by name.

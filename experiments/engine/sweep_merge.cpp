@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "alea/core/error.hpp"
+#include "experiments/engine/configuration.hpp"
 #include "experiments/engine/store_tables.hpp"
 #include "experiments/engine/sweep_export.hpp"
 

@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "alea/core/error.hpp"
-#include "alea/core/version.hpp"
 #include "alea/io/toml_table.hpp"
 
 namespace alea::experiments {
@@ -106,13 +104,17 @@ std::vector<std::string> read_estimators(const TomlTable& file, const SweepExper
   return estimators;
 }
 
-nlohmann::json to_json(const SweepValue& value) {
-  return std::visit([](const auto& v) { return nlohmann::json(v); }, value);
-}
-
-SweepValue value_from(const nlohmann::json& json) {
-  if (json.is_string()) return json.get<std::string>();
-  return json.get<double>();
+/// Values that are allowed one by one may still not go together.
+void check_cells(const SweepSpec& spec, const SweepExperiment& experiment,
+                 const std::filesystem::path& path) {
+  if (experiment.check == nullptr) return;
+  for (std::uint64_t cell = 0; cell < spec.cells(); ++cell) {
+    try {
+      experiment.check(spec.settings(cell));
+    } catch (const Error& error) {
+      throw input_error(fmt::format("{}: cell {}: {}", path.string(), cell, error.what()));
+    }
+  }
 }
 
 }  // namespace
@@ -171,47 +173,8 @@ SweepSpec load_sweep(const std::filesystem::path& path, bool smoke) {
     throw input_error(fmt::format(
         "{}: {} cells of {} trials; at most {} cells and 1e10 trials in all fit one sweep",
         path.string(), spec.cells(), spec.trials, most_cells));
+  check_cells(spec, experiment, path);
   return spec;
-}
-
-std::string configuration_of(const SweepSpec& spec) {
-  nlohmann::json base, axes = nlohmann::json::array();
-  for (const auto& [name, value] : spec.base) base[name] = to_json(value);
-  for (const SweepAxis& axis : spec.axes) {
-    nlohmann::json values = nlohmann::json::array();
-    for (const SweepValue& value : axis.values) values.push_back(to_json(value));
-    axes.push_back({{"name", axis.name}, {"values", values}});
-  }
-  return nlohmann::json{{"schema", sweep_schema}, {"alea", version()},
-                        {"sweep", spec.name},     {"experiment", spec.experiment},
-                        {"base", base},           {"axes", axes},
-                        {"trials", spec.trials},  {"estimators", spec.estimators},
-                        {"seed", spec.seed},      {"smoke", spec.smoke}}
-      .dump();
-}
-
-SweepSpec spec_from(const std::string& configuration) {
-  try {
-    const nlohmann::json json = nlohmann::json::parse(configuration);
-    SweepSpec spec;
-    spec.name = spec.title = json.at("sweep").get<std::string>();
-    spec.experiment = json.at("experiment").get<std::string>();
-    for (const auto& [name, value] : json.at("base").items()) spec.base[name] = value_from(value);
-    for (const nlohmann::json& axis : json.at("axes")) {
-      spec.axes.push_back({axis.at("name").get<std::string>(), {}});
-      for (const nlohmann::json& value : axis.at("values"))
-        spec.axes.back().values.push_back(value_from(value));
-    }
-    spec.estimators = json.at("estimators").get<std::vector<std::string>>();
-    spec.trials = json.at("trials").get<std::uint64_t>();
-    spec.seed = json.at("seed").get<std::uint64_t>();
-    spec.smoke = json.at("smoke").get<bool>();
-    return spec;
-  } catch (const nlohmann::json::exception&) {
-    throw input_error(
-        "store: its configuration cannot be read; it is damaged or made by another "
-        "version of alea");
-  }
 }
 
 }  // namespace alea::experiments

@@ -40,11 +40,4 @@ inline constexpr int sweep_schema = 1;
 /// Error(input) with file, line, key, value and expectation.
 SweepSpec load_sweep(const std::filesystem::path& file, bool smoke);
 
-/// Everything that decides the rows of a sweep, and nothing else, as one line of JSON: stores with
-/// the same text hold rows of the same sweep.
-std::string configuration_of(const SweepSpec& spec);
-
-/// The sweep that a configuration describes. Throws Error(input).
-SweepSpec spec_from(const std::string& configuration);
-
 }  // namespace alea::experiments

@@ -7,6 +7,7 @@
 #include <charconv>
 
 #include "alea/core/error.hpp"
+#include "experiments/engine/configuration.hpp"
 #include "experiments/engine/store_check.hpp"
 #include "experiments/engine/store_tables.hpp"
 

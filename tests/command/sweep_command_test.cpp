@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include "tests/support/json_schema.hpp"
 #include "tests/support/paths.hpp"
@@ -79,13 +80,14 @@ TEST_F(SweepCommand, ShardsMerge) {
 TEST_F(SweepCommand, RefusesAnotherConfiguration) {
   EXPECT_EQ(run("a").exit_code, 0);
   EXPECT_EQ(run("a").exit_code, 3) << "never overwrites";
-  for (const std::vector<std::string>& changed :
-       {std::vector<std::string>{"--resume", "--seed", "2"},
-        {"--resume", "--smoke"},
-        {"--resume", "--shard", "1/2"}}) {
-    const ProgramRun run_again = run("a", changed);
+  const std::vector<std::pair<std::vector<std::string>, std::string>> changes{
+      {{"--resume", "--seed", "2"}, "seed is 1 there and 2 now"},
+      {{"--resume", "--smoke"}, "smoke is false there and true now"},
+      {{"--resume", "--shard", "1/2"}, "shard is 1/1 there and 1/2 now"}};
+  for (const auto& [options, difference] : changes) {
+    const ProgramRun run_again = run("a", options);
     EXPECT_EQ(run_again.exit_code, 3);
-    EXPECT_THAT(run_again.err, HasSubstr("another configuration"));
+    EXPECT_THAT(run_again.err, HasSubstr("another configuration (" + difference + ")"));
   }
 }
 
@@ -94,6 +96,7 @@ TEST_F(SweepCommand, SaysWhatIsWrong) {
   EXPECT_EQ(run_alea({"sweep", sweep_}).exit_code, 2) << "--out is missing";
   EXPECT_EQ(run("a", {"--shard", "3/2"}).exit_code, 2);
   EXPECT_EQ(run("a", {"--threads", "-1"}).exit_code, 2);
+  EXPECT_EQ(run("a", {"--seed", "-1"}).exit_code, 2);
   EXPECT_EQ(run_alea({"sweep", folder_.file("none.toml"), "--out", folder_.file("b")}).exit_code,
             3);
   std::ofstream(sweep_) << "schema = 1\nname = \"x\"\nexperiment = \"die\"\n"

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "alea/core/error.hpp"
+#include "experiments/engine/configuration.hpp"
 #include "tests/engine/sweep_files.hpp"
 #include "tests/support/paths.hpp"
 
@@ -63,6 +64,24 @@ TEST(SweepSpec, AConfigurationHoldsAllThatDecidesTheRows) {
                                                         {"schema = 1", "schema = 1\nseed = 2"}})
     EXPECT_NE(configuration_of(load(replaced(small_sweep(), from, to))), configuration_of(spec))
         << to;
+}
+
+TEST(SweepSpec, NamesTheFirstDifferenceOfTwoConfigurations) {
+  const auto difference = [](const std::string& from, const std::string& to) {
+    return configuration_difference(configuration_of(load(small_sweep())),
+                                    configuration_of(load(replaced(small_sweep(), from, to))));
+  };
+  EXPECT_EQ(difference("trials = 7", "trials = 7"), "");
+  EXPECT_EQ(difference("trials = 7", "trials = 8"), "trials is 7 there and 8 now");
+  EXPECT_EQ(difference("step_mrad = 5", "step_mrad = 6"),
+            "base.step_mrad is 5.0 there and 6.0 now");
+  EXPECT_THAT(difference("[0.5, 2]", "[0.5]"), HasSubstr("axes is "));
+}
+
+TEST(SweepSpec, SaysWhichCellIsImpossible) {
+  const std::string message = message_of(
+      replaced(small_sweep(), "step_mrad = 5", "step_mrad = 5\nrange_m = 5\nedge_m = 9"));
+  EXPECT_THAT(message, HasSubstr("sweep.toml: cell 0: range_m = 5 with edge_m = 9"));
 }
 
 TEST(SweepSpec, SaysWhereAFileIsWrong) {

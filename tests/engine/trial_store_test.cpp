@@ -7,6 +7,7 @@
 
 #include "alea/core/error.hpp"
 #include "experiments/engine/comparable_rows.hpp"
+#include "experiments/engine/configuration.hpp"
 #include "experiments/engine/sweep_run.hpp"
 #include "tests/engine/sweep_files.hpp"
 
