@@ -10,7 +10,7 @@ namespace alea::experiments::markerless {
 namespace {
 
 using std::numbers::pi;
-constexpr double side_m = 3, wall_m = 0.3, height_m = 6, floor_m = 0.3;
+constexpr double side_m = 3, wall_m = 0.3, storey_m = 6, floor_m = 0.3;
 const double apothem_m = side_m * std::cos(pi / 6);
 
 double direction_of(int side) {
@@ -35,10 +35,10 @@ void add_wall(Scene& scene, int side, double width_m, double low_m, double high_
     scene.boxes.push_back(upright_box(fmt::format("wall {} {}", side, part), base,
                                       {wall_m, to - from, high - low}, direction, 0.7));
   };
-  add("left", -side_m / 2, -width_m / 2, 0, height_m);
-  add("right", width_m / 2, side_m / 2, 0, height_m);
+  add("left", -side_m / 2, -width_m / 2, 0, storey_m);
+  add("right", width_m / 2, side_m / 2, 0, storey_m);
   add("sill", -width_m / 2, width_m / 2, 0, low_m);
-  add("lintel", -width_m / 2, width_m / 2, high_m, height_m);
+  add("lintel", -width_m / 2, width_m / 2, high_m, storey_m);
 }
 
 void add_bell_tower(Scene& scene, bool bare) {
@@ -49,15 +49,15 @@ void add_bell_tower(Scene& scene, bool bare) {
       add_wall(scene, side, 0.9, 1.3, 3.1);
   }
   add_slab(scene, "floor", side_m - 0.2, 0, floor_m);
-  add_slab(scene, "roof", side_m + 0.25, height_m, 0.25);
+  add_slab(scene, "roof", side_m + 0.25, storey_m, 0.25);
   for (int corner = 0; corner < 6; ++corner)
     scene.boxes.push_back(upright_box(fmt::format("belfry post {}", corner),
-                                      polar(side_m - 0.6, pi / 3 * corner, height_m),
+                                      polar(side_m - 0.6, pi / 3 * corner, storey_m),
                                       {0.35, 0.35, 2.2}, pi / 3 * corner, 0.6));
-  add_slab(scene, "belfry roof", side_m - 0.2, height_m + 2.2, 0.2);
+  add_slab(scene, "belfry roof", side_m - 0.2, storey_m + 2.2, 0.2);
   Sphere bell;
   bell.id = "bell";
-  bell.centre_m = {0, 0, height_m + 1.3};
+  bell.centre_m = {0, 0, storey_m + 1.3};
   bell.radius_m = 0.5;
   bell.intensity = 0.2;
   scene.spheres.push_back(bell);

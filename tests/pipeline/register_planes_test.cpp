@@ -20,7 +20,7 @@ double rotation_error_rad(const Registration& registration, const RigidTransform
 /// Both scans of a hall with four walls, one slanted: made once.
 const testing::TwoScans& hall() {
   static const testing::TwoScans scans =
-      testing::scan_twice({.range_m = 3, .step_rad = 4e-3, .walls = true});
+      testing::scan_twice({.range_m = 3, .step_rad = 5.5e-3, .walls = true});
   return scans;
 }
 

@@ -22,7 +22,7 @@ const RigidTransform second_pose{rotation_exp({0.02, -0.01, 2.2}), {-0.4, 0.5, 1
 
 Cloud scan_of(const std::vector<Eigen::Vector3d>& balls, const RigidTransform& pose,
               std::uint32_t scan) {
-  return simulate_scan(furnished_room(balls), room_station(pose, 4e-3), {7, 0, 0, scan});
+  return simulate_scan(furnished_room(balls), room_station(pose, 6e-3), {7, 0, 0, scan});
 }
 
 /// The scans that most tests share, made once.

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
+#include "alea/checkerboard/board_raster.hpp"
 #include "alea/core/angle.hpp"
 #include "alea/core/parallel.hpp"
 
@@ -30,80 +32,6 @@ struct OutlineSums {
   double gain() const { return gain(correlation()); }
   double gain(double r) const { return n * gain_of_one(r * r); }
 };
-
-/// Pixels of sums with running totals, so that a box costs four look-ups.
-class Raster {
- public:
-  Raster(int width, int height) : width_(width), height_(height) {
-    for (auto& plane : planes_) plane.resize(static_cast<std::size_t>(width) * height);
-  }
-  void clear() {
-    for (auto& plane : planes_) std::fill(plane.begin(), plane.end(), 0.0f);
-  }
-  void add(int x, int y, float intensity) {
-    const std::size_t at = static_cast<std::size_t>(y) * width_ + x;
-    planes_[0][at] += 1;
-    planes_[1][at] += intensity;
-    planes_[2][at] += intensity * intensity;
-  }
-  int width() const { return width_; }
-  int height() const { return height_; }
-  const std::vector<float>& plane(int k) const { return planes_[k]; }
-
- private:
-  int width_, height_;
-  std::array<std::vector<float>, 3> planes_;  // count, sum, sum of squares
-};
-
-/// Windows of `cells` cells of `cell_px` pixels, weighed +1, -1, +1, ... or all +1.
-struct Window {
-  int cells, cell_px;
-  bool alternating;
-
-  int size() const { return cells * cell_px; }
-};
-
-/// The sum over a window at each of `places` places with `lanes` values side by side (1: along a
-/// row of pixels; the width: down all columns at once). `totals`: running totals, one place more.
-void window_sums(const Window& window, const double* totals, int places, int lanes, double* out) {
-  const int step = window.cell_px * lanes, last = (places - window.size()) * lanes;
-  const double end_sign = window.cells % 2 == 1 ? 1 : -1;
-  const auto box = [&](int k) { return totals[k + step] - totals[k]; };
-  for (int k = 0; k < last + lanes; ++k) {
-    if (!window.alternating) {
-      out[k] = totals[k + window.size() * lanes] - totals[k];
-    } else if (k < step) {
-      out[k] = 0;
-      for (int c = 0; c < window.cells; ++c) out[k] += (c % 2 == 0 ? 1 : -1) * box(k + c * step);
-    } else {  // one cell further: all signs change, one cell goes, one comes
-      out[k] = box(k - step) - out[k - step] + end_sign * box(k + (window.cells - 1) * step);
-    }
-  }
-}
-
-struct Scratch {
-  std::vector<double> rows, totals;
-};
-
-std::vector<double> window_map(const Raster& raster, int plane, const BoardSpec& board, int cell_px,
-                               bool alternating, Scratch& scratch) {
-  const int w = raster.width(), h = raster.height();
-  const auto& pixels = raster.plane(plane);
-  const auto width = static_cast<std::size_t>(w);
-  scratch.rows.assign(pixels.size(), 0);
-  scratch.totals.assign(pixels.size() + width, 0);
-  std::vector<double>& totals = scratch.totals;
-  for (int y = 0; y < h; ++y) {
-    const std::size_t base = y * width;
-    for (std::size_t x = 0; x < width; ++x) totals[x + 1] = totals[x] + pixels[base + x];
-    window_sums({board.columns, cell_px, alternating}, totals.data(), w, 1, &scratch.rows[base]);
-  }
-  std::fill_n(totals.begin(), width, 0.0);
-  for (std::size_t k = 0; k < pixels.size(); ++k) totals[k + width] = totals[k] + scratch.rows[k];
-  std::vector<double> out(pixels.size(), 0);
-  window_sums({board.rows, cell_px, alternating}, totals.data(), h, w, out.data());
-  return out;
-}
 
 /// How the search is laid out.
 struct Grid {
@@ -156,27 +84,61 @@ void keep_best(const BoardSpec& board, std::size_t most, const BoardCandidate& c
   }
 }
 
-/// The best centres at one angle.
-std::vector<BoardCandidate> search_angle(const BoardSpec& board, const Grid& grid,
-                                         std::span<const Eigen::Vector2d> places_m,
-                                         const std::vector<float>& intensity, double angle_rad,
-                                         const BoardSearchOptions& options) {
-  Raster raster(grid.size_px, grid.size_px);
-  raster.clear();
-  const double c = std::cos(angle_rad), s = std::sin(angle_rad);
+BoardRaster intensities_on_raster(const Grid& grid, std::span<const Eigen::Vector2d> places_m,
+                                  const std::vector<float>& intensity, const BoardPose2& pose) {
+  BoardRaster raster(grid.size_px, grid.size_px);
+  const double c = std::cos(pose.angle_rad), s = std::sin(pose.angle_rad);
   const double pixels_per_m = 1 / grid.pixel_m;
   for (std::size_t i = 0; i < places_m.size(); ++i) {
-    const Eigen::Vector2d from = places_m[i] - options.about_m;
+    const Eigen::Vector2d from = places_m[i] - pose.centre_m;
     const double x = (c * from.x() + s * from.y() + grid.half_m) * pixels_per_m;
     const double y = (-s * from.x() + c * from.y() + grid.half_m) * pixels_per_m;
     if (x >= 0 && y >= 0 && x < grid.size_px && y < grid.size_px)
       raster.add(static_cast<int>(x), static_cast<int>(y), intensity[i]);
   }
-  Scratch scratch;
-  std::array<std::vector<double>, 5> maps;
-  for (int k = 0; k < 3; ++k) maps[k] = window_map(raster, k, board, grid.cell_px, false, scratch);
-  for (int k = 0; k < 2; ++k)
-    maps[3 + k] = window_map(raster, k, board, grid.cell_px, true, scratch);
+  return raster;
+}
+
+/// Sums over the outline at each pixel: of 1, i, i^2, s and s i.
+class OutlineMaps {
+ public:
+  OutlineMaps(const BoardRaster& raster, const BoardSpec& board, int cell_px) {
+    WindowScratch scratch;
+    for (int k = 0; k < 3; ++k) maps_[k] = window_map(raster, k, board, cell_px, false, scratch);
+    for (int k = 0; k < 2; ++k) maps_[3 + k] = window_map(raster, k, board, cell_px, true, scratch);
+  }
+  /// The first cell is dark, -1; the windows begin with +1.
+  OutlineSums operator[](std::size_t at) const {
+    return {maps_[0][at], maps_[1][at], maps_[2][at], -maps_[3][at], -maps_[4][at]};
+  }
+
+ private:
+  std::array<std::vector<double>, 5> maps_;
+};
+
+/// The candidate at sums of an outline, without its place; nothing where its gain is below `least`.
+std::optional<BoardCandidate> candidate_of(const OutlineSums& sums, bool free_sign, double least) {
+  BoardCandidate candidate;
+  candidate.correlation = sums.correlation();
+  if (candidate.correlation == 0 || (candidate.correlation < 0 && !free_sign)) return {};
+  const double r2 = candidate.correlation * candidate.correlation;
+  // -log(1 - r2) is at most r2 / (1 - r2), which costs less.
+  if (0.55 * sums.n * r2 < least * (1 - r2)) return {};
+  candidate.gain = sums.gain(candidate.correlation);
+  if (candidate.gain < least) return {};
+  candidate.points = static_cast<std::size_t>(sums.n);
+  return candidate;
+}
+
+/// The best centres at one angle.
+std::vector<BoardCandidate> search_angle(const BoardSpec& board, const Grid& grid,
+                                         std::span<const Eigen::Vector2d> places_m,
+                                         const std::vector<float>& intensity, double angle_rad,
+                                         const BoardSearchOptions& options) {
+  const OutlineMaps maps(
+      intensities_on_raster(grid, places_m, intensity, {options.about_m, angle_rad}), board,
+      grid.cell_px);
+  const double c = std::cos(angle_rad), s = std::sin(angle_rad);
   const bool free_sign = sign_is_free(board);
   std::vector<BoardCandidate> best;
   double best_gain = 0;
@@ -186,27 +148,33 @@ std::vector<BoardCandidate> search_angle(const BoardSpec& board, const Grid& gri
                                      Eigen::Vector2d::Constant(grid.half_m) +
                                      Eigen::Vector2d(board.side_m(), board.height_m()) / 2;
       if (turned.norm() > options.radius_m) continue;
-      const std::size_t at = static_cast<std::size_t>(y) * grid.size_px + x;
-      // The first cell is dark, -1; the waves begin with +1.
-      const OutlineSums sums{maps[0][at], maps[1][at], maps[2][at], -maps[3][at], -maps[4][at]};
-      BoardCandidate candidate;
-      candidate.correlation = sums.correlation();
-      if (candidate.correlation == 0 || (candidate.correlation < 0 && !free_sign)) continue;
-      const double r2 = candidate.correlation * candidate.correlation;
-      const double least = BoardSearchOptions::least_gain_share * best_gain;
-      // -log(1 - r2) is at most r2 / (1 - r2), which costs less.
-      if (0.55 * sums.n * r2 < least * (1 - r2)) continue;
-      candidate.gain = sums.gain(candidate.correlation);
-      if (candidate.gain < least) continue;
-      best_gain = std::max(best_gain, candidate.gain);
-      candidate.points = static_cast<std::size_t>(sums.n);
-      candidate.pose = {options.about_m + Eigen::Vector2d(c * turned.x() - s * turned.y(),
-                                                          s * turned.x() + c * turned.y()),
-                        angle_rad};
-      keep_best(board, options.most_candidates, with_positive_sign(board, candidate), best);
+      auto candidate = candidate_of(maps[static_cast<std::size_t>(y) * grid.size_px + x], free_sign,
+                                    BoardSearchOptions::least_gain_share * best_gain);
+      if (!candidate) continue;
+      best_gain = std::max(best_gain, candidate->gain);
+      candidate->pose = {options.about_m + Eigen::Vector2d(c * turned.x() - s * turned.y(),
+                                                           s * turned.x() + c * turned.y()),
+                         angle_rad};
+      keep_best(board, options.most_candidates, with_positive_sign(board, *candidate), best);
     }
   }
   return best;
+}
+
+/// Best first, at most `most`, at least half the shorter side apart.
+std::vector<BoardCandidate> best_apart(const BoardSpec& board, std::size_t most,
+                                       std::vector<BoardCandidate> candidates) {
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const auto& a, const auto& b) { return a.gain > b.gain; });
+  const double apart_m = 0.5 * board.height_m();
+  std::vector<BoardCandidate> separate;
+  for (const BoardCandidate& one : candidates)
+    if (separate.size() < most &&
+        std::none_of(separate.begin(), separate.end(), [&](const BoardCandidate& better) {
+          return (better.pose.centre_m - one.pose.centre_m).norm() < apart_m;
+        }))
+      separate.push_back(one);
+  return separate;
 }
 
 /// The points that the search looks at. A board of few cells must correlate by 0.5 at least, which
@@ -269,17 +237,7 @@ std::vector<BoardCandidate> search_board(const BoardSpec& board,
   for (const auto& part : parts)
     for (const BoardCandidate& candidate : part)
       keep_best(board, options.most_candidates, candidate, best);
-  std::stable_sort(best.begin(), best.end(),
-                   [](const auto& a, const auto& b) { return a.gain > b.gain; });
-  const double apart_m = 0.5 * board.height_m();
-  std::vector<BoardCandidate> separate;
-  for (const BoardCandidate& one : best)
-    if (separate.size() < options.most_candidates &&
-        std::none_of(separate.begin(), separate.end(), [&](const BoardCandidate& better) {
-          return (better.pose.centre_m - one.pose.centre_m).norm() < apart_m;
-        }))
-      separate.push_back(one);
-  best = std::move(separate);
+  best = best_apart(board, options.most_candidates, std::move(best));
   for (BoardCandidate& one : best) {
     one.gain *= some.weight;
     one.points = static_cast<std::size_t>(some.weight * static_cast<double>(one.points));
