@@ -8,6 +8,7 @@
 #include "alea/die/closed_form.hpp"
 #include "alea/die/ideal_observation.hpp"
 #include "alea/evaluate/fisher_bound.hpp"
+#include "alea/facet/pointing.hpp"
 #include "alea/simulate/scanner.hpp"
 #include "experiments/die/facet_met.hpp"
 
@@ -54,15 +55,46 @@ std::array<std::vector<Eigen::Vector3d>, 3> members_by_rays(const Cloud& cloud,
   return members;
 }
 
-/// The scan without what lies nearer to two facets of the true die than `radius_m`.
-Cloud away_from_edges(const Cloud& cloud, const Die& die, const RigidTransform& scene_from_scan,
-                      double radius_m) {
+/// The facet of a convex die that a ray enters by: of those that face the scanner, the one met
+/// last.
+std::size_t facet_entered(const Eigen::Vector3d& scanner, const Eigen::Vector3d& ray,
+                          const Die& die) {
+  std::size_t facet = 0;
+  double farthest = 0;
+  for (std::size_t f = 0; f < die.body.planes.size(); ++f) {
+    const Plane& plane = die.body.planes[f];
+    const double height = plane.signed_distance(scanner), share = -height / plane.normal.dot(ray);
+    if (height <= 0 || share <= farthest) continue;
+    facet = f;
+    farthest = share;
+  }
+  return facet;
+}
+
+/// The scan without rays whose own pointing decides what they meet, and without those that meet a
+/// facet nearer to its borders than `radius_m`. The reported ray and the true die tell, so that no
+/// noise has a say.
+Cloud away_from_borders(const Cloud& cloud, const Die& die, const RigidTransform& scene_from_scan,
+                        double radius_m) {
+  const NoiseModel noise;
+  const Eigen::Vector3d scanner = scene_from_scan.translation;
   std::vector<std::uint32_t> kept;
   for (std::uint32_t i = 0; i < cloud.size(); ++i) {
-    const Eigen::Vector3d p = scene_from_scan * cloud.positions[i];
-    int near = 0;
-    for (const Plane& plane : die.body.planes) near += plane.signed_distance(p) > -radius_m ? 1 : 0;
-    if (near < 2) kept.push_back(i);
+    const Eigen::Vector3d measured = scene_from_scan.rotation * cloud.positions[i];
+    const std::size_t facet = facet_entered(scanner, measured, die);
+    const Eigen::Vector3d normal = die.body.planes[facet].normal;
+    const Eigen::Vector3d ray =
+        -die.body.planes[facet].signed_distance(scanner) / normal.dot(measured) * measured;
+    bool inside = true;
+    for (std::size_t other = 0; inside && other < die.body.planes.size(); ++other) {
+      const Plane& border = die.body.planes[other];
+      inside =
+          other == facet ||
+          -border.signed_distance(scanner + ray) >
+              std::max(radius_m, border_pointing_sds * pointing_sd_m(ray, normal, border.normal,
+                                                                     noise.angular_noise_rad));
+    }
+    if (inside) kept.push_back(i);
   }
   return subset(cloud, kept);
 }
@@ -94,9 +126,8 @@ ScanResult observe(const Scene& scene, const EfficiencyCase& setting,
   const auto [column, row] = phases.uniform2_at(0);
   const Station station =
       aimed_station(scene_from_scan, bounding_ball(scene.dice[0]), setting.step_rad, {column, row});
-  Cloud cloud = simulate_scan(scene, station, key);
-  if (setting.edge_radius_m > 0)
-    cloud = away_from_edges(cloud, scene.dice[0], scene_from_scan, setting.edge_radius_m);
+  const Cloud cloud = away_from_borders(simulate_scan(scene, station, key), scene.dice[0],
+                                        scene_from_scan, setting.edge_radius_m);
   const ObservedDie truth = seen_truth(scene.dice[0], scene_from_scan);
   PlaneFitOptions options;
   options.method = setting.fit;

@@ -22,7 +22,7 @@ struct EfficiencyCase {
   FitMethod fit = FitMethod::along_ray;
   // What no noise model knows of.
   double bow_m = 0;            ///< of every facet, outward
-  double edge_radius_m = 0;    ///< points nearer than this to an edge are left out
+  double edge_radius_m = 0;    ///< rays that meet a facet nearer than this to an edge are left out
   double facet_bias_sd_m = 0;  ///< range bias: each facet in each scan lies off by its own offset
 };
 
@@ -50,7 +50,8 @@ struct ObservedPair {
 };
 
 /// Simulates both scans of the die alone and fits its facets; the facets' points are sorted by
-/// their rays. The same seed and trial give the same bits.
+/// their rays, and rays nearer than two standard deviations of the pointing to a facet's border are
+/// left out (alea/facet/pointing.hpp). The same seed and trial give the same bits.
 ObservedPair observe_pair(const EfficiencyCase& setting, std::uint64_t seed, std::uint64_t trial);
 
 /// Simulates both scans, sorts the points to facets by their reported rays (the facet that a ray

@@ -8,7 +8,7 @@
 namespace alea::test {
 
 DieScan scan_die(const DieModel& model, double distance_m, double step_rad, Scene others,
-                 std::uint64_t trial) {
+                 std::uint64_t trial, const Scanner& scanner) {
   DieModel standing = model;
   standing.scene_from_die.translation = {0, 0, model.size_m[0] / 2};
   others.dice.insert(others.dice.begin(), build_die(standing));
@@ -20,7 +20,8 @@ DieScan scan_die(const DieModel& model, double distance_m, double step_rad, Scen
   const RigidTransform pose = levelled_pose({diagonal, diagonal, 1.6}, -2.1);
   BoundingBall ball = bounding_ball(others.dice[0]);
   ball.radius_m *= others.dice.size() + others.boxes.size() > 1 ? 4 : 1;
-  const Station station = aimed_station(pose, ball, step_rad, {0.3, 0.6});
+  Station station = aimed_station(pose, ball, step_rad, {0.3, 0.6});
+  station.scanner = scanner;
   DieScan out;
   out.cloud = simulate_scan(others, station, {17, 1, trial, 0});
   const RigidTransform scan_from_scene = pose.inverse();

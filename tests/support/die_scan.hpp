@@ -20,7 +20,7 @@ struct DieScan {
 
 /// `model` is moved to stand on the floor under the scene's z axis; `others` stands around it.
 DieScan scan_die(const DieModel& model, double distance_m, double step_rad, Scene others = {},
-                 std::uint64_t trial = 0);
+                 std::uint64_t trial = 0, const Scanner& scanner = {});
 
 /// What a plane detector gives for the three facets: points within 6 mm, planes 3 mrad off.
 std::array<PlaneRegion, 3> die_facets_of(const DieScan& scan);

@@ -188,6 +188,7 @@ FacetSelection final_selection(const FacetFits& body, const FacetFitOptions& opt
   out.scanner_position = scanner_position;
   out.nearest_plane = options.nearest_plane;
   out.trim_m = body.trim_m;
+  out.pointing_rad = options.fit.noise.angular_noise_rad;
   out.lengths_m = borders_of(body.extents);
   out.masks = options.masks;
   return out;

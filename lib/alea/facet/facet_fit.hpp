@@ -20,7 +20,8 @@ struct FacetFitOptions {
   /// other one is there to show the damage.
   std::optional<SelectionDomain> domain;
   bool nearest_plane = true;
-  /// Empty: the largest of the edge radius, the footprint and `least_trim_m`.
+  /// Empty: the largest of the edge radius, the footprint and `least_trim_m`. Selection by rays
+  /// also leaves out those whose pointing decides what they meet (pointing.hpp).
   std::optional<double> trim_m;
   std::optional<double> edge_radius_m;  ///< empty: estimated from the points along the edges
   double footprint_m = 0.008;           ///< beam diameter on the facets

@@ -27,6 +27,10 @@ struct FacetSelection {
   Eigen::Vector3d scanner_position = Eigen::Vector3d::Zero();
   bool nearest_plane = true;  ///< a point belongs to its nearest facet only
   double trim_m = 0.01;       ///< least distance from each of the four borders; negative widens
+  /// Standard deviation of the rays' pointing. In the ray domain rays nearer to a border than
+  /// `border_pointing_sds` of it are left out too, up to a quarter of the facet's length; zero
+  /// leaves it at the trim.
+  double pointing_rad = 0;
   /// lengths_m[k]: of facet k along edges[(k+1)%3] and edges[(k+2)%3].
   std::array<Eigen::Vector2d, 3> lengths_m;
   std::array<double, 3> gate_m{};  ///< largest distance of a point from its facet's plane
