@@ -76,20 +76,23 @@ def write_table(source, work, paper):
     title, note = lines[0], lines[1] if len(lines) > 1 else ""
     if title.startswith("Table "):
         title = "The paper's " + title
-    notes = any(row["note"] for row in rows)
-    first = 0.06 if max(len(row["row"]) for row in rows) < 8 else 0.15
-    widths = [first, 0.48 - first, 0.08, 0.24, 0.12] if not notes else [first, 0.38 - first, 0.08, 0.18, 0.10, 0.17]
-    columns = "".join(f">{{\\raggedright\\arraybackslash}}p{{{w}\\linewidth}}" for w in widths)
-    head = ["", "quantity", "printed", "ours [central 95\\,\\%]", "verdict"] + (["note"] if notes else [])
-    out = [f"{{\\footnotesize\\setlength{{\\tabcolsep}}{{3pt}}\\begin{{longtable}}{{@{{}}{columns}@{{}}}}",
+    longest = max(len(row["row"]) for row in rows)
+    first = 0.06 if longest < 8 else 0.15 if longest < 20 else 0.27
+    # Share of the line and text of each column; one without any text is left out.
+    columns = [(first, "", lambda row: latex(row["row"])),
+               (0.24, "quantity", lambda row: latex(row["column"] + (f" ({row['unit']})" if row["unit"] else ""))),
+               (0.09, "printed", lambda row: latex(row["printed"])),
+               (0.21, "ours [central 95\\,\\%]", ours_of),
+               (0.12, "verdict", lambda row: latex(row["verdict"].replace("-", ""))),
+               (0.19, "note", lambda row: latex(row["note"]))]
+    columns = [column for column in columns if any(column[2](row) for row in rows)]
+    spare = (1 - 0.015 * len(columns)) / sum(width for width, _, _ in columns)
+    widths = "".join(f">{{\\raggedright\\arraybackslash}}p{{{width * spare:.4f}\\linewidth}}" for width, _, _ in columns)
+    head = " & ".join(title for _, title, _ in columns) + "\\\\ \\midrule"
+    out = [f"{{\\footnotesize\\setlength{{\\tabcolsep}}{{3pt}}\\begin{{longtable}}{{@{{}}{widths}@{{}}}}",
            f"\\caption{{{latex(title)}. {latex(note)}}}\\label{{tab:{paper}-{source.stem}}}\\\\", "\\toprule",
-           " & ".join(head) + "\\\\ \\midrule \\endfirsthead", "\\toprule",
-           " & ".join(head) + "\\\\ \\midrule \\endhead", "\\bottomrule \\endfoot"]
-    for row in rows:
-        unit = f" ({row['unit']})" if row["unit"] else ""
-        cells = [latex(row["row"]), latex(row["column"] + unit), latex(row["printed"]), ours_of(row),
-                 latex(row["verdict"].replace("-", ""))] + ([latex(row["note"])] if notes else [])
-        out.append(" & ".join(cells) + "\\\\")
+           head + " \\endfirsthead", "\\toprule", head + " \\endhead", "\\bottomrule \\endfoot"]
+    out += [" & ".join(text(row) for _, _, text in columns) + "\\\\" for row in rows]
     out.append("\\end{longtable}}")
     (work / "tables").mkdir(exist_ok=True)
     (work / "tables" / f"{paper}-{source.stem}.tex").write_text("\n".join(out) + "\n")

@@ -285,13 +285,17 @@ def legend_below(figure, panel, columns=4):
     figure.legend(handles, labels, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncol=columns, fontsize=8)
 
 
+def part_title(axis, value):
+    return "trim estimated" if (axis, value) == ("trim_mm", "-1") else f"{AXIS_TITLES.get(axis, axis)} {value}"
+
+
 def plot_error_curves(rows, path):
     """Errors against a numeric axis: RMS with 95 % intervals for each estimator, the bound as a line. Further axes
     of the sweep share the panels in rows."""
     axis, others = axis_columns(rows)[0], axis_columns(rows)[1:]
     parts = {}
     for row in rows:
-        parts.setdefault(", ".join(f"{AXIS_TITLES.get(o, o)} {row[o]}" for o in others), []).append(row)
+        parts.setdefault(", ".join(part_title(o, row[o]) for o in others), []).append(row)
     figure, panels = plt.subplots(len(parts), 3, figsize=(14, 3.9 * len(parts)), squeeze=False)
     for line, (part, of_part) in zip(panels, parts.items()):
         for panel, (measure, bound, scale, title) in zip(line, MEASURES):
@@ -299,8 +303,10 @@ def plot_error_curves(rows, path):
             for k, (name, of_name) in enumerate(groups(of_part, "estimator").items()):
                 x, rms = series_of(of_name, axis, measure, scale)
                 if len(x):
-                    panel.errorbar(x, rms[:, 0], [rms[:, 0] - rms[:, 1], rms[:, 2] - rms[:, 0]], fmt="o-", ms=3.5,
-                                   lw=1, capsize=2, color=COLOURS[k % len(COLOURS)], label=name.replace("_", " "))
+                    # Estimators that agree lie on each other: hollow markers of falling size show them all.
+                    panel.errorbar(x, rms[:, 0], [rms[:, 0] - rms[:, 1], rms[:, 2] - rms[:, 0]],
+                                   fmt="os^Dv<>p*"[k % 9] + "-", ms=max(3, 8 - 1.2 * k), mfc="none", lw=1, capsize=2,
+                                   color=COLOURS[k % len(COLOURS)], label=name.replace("_", " "))
                 draw_bounds(panel, of_name, axis, bound, scale, done)
             set_scale(panel, axis, of_part)
             panel.set_yscale("log")
