@@ -102,6 +102,27 @@ TEST(RegisterBlankCube, ASceneThatLooksTheSameTurnedDoesNotResolveIt) {
   EXPECT_EQ(result.refusal->code, RefusalCode::ambiguous_target);
 }
 
+TEST(RegisterBlankCube, FewerCommonPlanesContradictNoOrientation) {
+  // In the middle of a square room, a quarter turn apart and seeing two walls each, of which they
+  // share one: turned back by a quarter, the scans would share both.
+  TwoStationCase square = blank_cube_in_a_room();
+  square.walls = false;
+  square.window_m = 1.5;
+  square.change_scene = [](Scene& scene, int) {
+    scene.patches.push_back({"floor", {-4, -4, 0}, {8, 0, 0}, {0, 8, 0}});
+    for (const double side : {-4.0, 4.0}) {
+      scene.patches.push_back({"wall x", {side, -4, 0}, {0, 8, 0}, {0, 0, 3}});
+      scene.patches.push_back({"wall y", {-4, side, 0}, {8, 0, 0}, {0, 0, 3}});
+    }
+  };
+  const TwoScans scans = scan_twice(square);
+  DieRegistrationOptions options = cube_of_half_a_metre();
+  options.resolve_by_scene = true;
+  const Registration result = register_die(scans.master, scans.slave, options);
+  ASSERT_TRUE(result.refusal);
+  EXPECT_EQ(result.refusal->code, RefusalCode::ambiguous_target);
+}
+
 TEST(RegisterReadableDie, ListsTheOrientationsThatItRejectsAndNeedsNoScene) {
   TwoStationCase room = blank_cube_in_a_room();
   room.change_die = nullptr;

@@ -120,6 +120,17 @@ TEST(RegisterDieRefuses, TwoLikeDiceOfWhichTheOtherScanShowsOne) {
   expect_refused(dice, RefusalCode::ambiguous_target);
 }
 
+TEST(RegisterDieRefuses, AScanThatIsMirroredWhateverHandIsAllowed) {
+  TwoScans scans = scan_twice({});
+  for (Eigen::Vector3d& p : scans.slave.positions) p.y() = -p.y();
+  DieRegistrationOptions options;
+  options.edge_m = 0.5;
+  options.chirality.reset();
+  const Registration result = register_die(scans.master, scans.slave, options);
+  ASSERT_TRUE(result.refusal);
+  EXPECT_EQ(result.refusal->code, RefusalCode::mirrored);
+}
+
 TEST(RegisterDie, TwoLikeDiceInBothScansArePairedByEachOther) {
   const TwoScans scans = scan_twice(two_like_dice());
   DieRegistrationOptions options;

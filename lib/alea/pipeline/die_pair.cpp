@@ -9,12 +9,16 @@
 #include <string>
 
 #include "alea/evaluate/check_planes.hpp"
+#include "alea/pipeline/scene_conflict.hpp"
 
 namespace alea {
 namespace {
 
 constexpr double same_rotation_rad = 0.02, same_translation_m = 0.05;
 constexpr double clear_lead = 1.25;  // the best pair's common points over the next different pair's
+// Mixed pixels and outlines give the true transform a little conflict; another shows more, and one
+// that shows a lot is out whatever its common points.
+constexpr double conflict_factor = 3, conflict_allowance = 0.005, plain_conflict = 0.1;
 
 bool same_transform(const DieTransform& a, const DieTransform& b) {
   const RigidTransform change = a.master_from_slave * b.master_from_slave.inverse();
@@ -41,31 +45,69 @@ struct Scored {
   DiePair pair;
   std::size_t orientation = 0;
   std::optional<Refusal> refusal;  ///< the die does not determine a transform in it
-  double score = 0;
+  double score = 0;                ///< points on planes that both scans see
+  double conflict = 0;             ///< scene_conflicts
 };
 
-Result<DiePair> best_by_scene(std::vector<Scored> candidates) {
+Refusal scene_undecided(bool orientations, bool scanners_known) {
+  const std::string advice = scanners_known ? "" : "give --master-origin and --slave-origin, ";
+  return {RefusalCode::ambiguous_target,
+          orientations
+              ? "the pips leave several orientations of the die and nothing in the rest of "
+                "the scene contradicts all but one; " +
+                    advice + "scan more of the surroundings, or a die with readable pips"
+              : "several dice fit in both scans and the rest of the scene does not tell "
+                "which is which; " +
+                    advice + "give --near X,Y,Z or scan one die only"};
+}
+
+/// Whether the scene contradicts `a` more than `b`.
+bool contradicted(const Scored& a, const Scored& b, double allowance) {
+  return a.conflict > conflict_factor * b.conflict + allowance;
+}
+
+/// The candidate with most common points, if the scene contradicts every other one more. Fewer
+/// common points alone contradict no orientation, for the scans may share little; of several dice
+/// the pair with clearly more wins.
+Result<DiePair> best_by_scene(std::vector<Scored> candidates, bool scanners_known) {
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Scored& a, const Scored& b) { return a.score > b.score; });
-  for (std::size_t i = 1; i < candidates.size(); ++i) {
-    if (same_transform(candidates[0].pair.transform, candidates[i].pair.transform)) continue;
-    if (candidates[0].score > clear_lead * candidates[i].score) break;
-    return Refusal{RefusalCode::ambiguous_target,
-                   candidates[0].pair.resolved_by_scene
-                       ? "the pips leave several orientations of the die and the rest of the scene "
-                         "does not tell which is right; scan more of the surroundings, or a die "
-                         "with readable pips"
-                       : "several dice fit in both scans and the rest of the scene does not tell "
-                         "which is which; give --near X,Y,Z or scan one die only"};
+  const Scored& least =
+      *std::min_element(candidates.begin(), candidates.end(),
+                        [](const Scored& a, const Scored& b) { return a.conflict < b.conflict; });
+  const auto best = std::find_if(
+      candidates.begin(), candidates.end(),
+      [&](const Scored& candidate) { return !contradicted(candidate, least, plain_conflict); });
+  const bool orientations = best->pair.resolved_by_scene;
+  for (const Scored& rival : candidates) {
+    if (same_transform(best->pair.transform, rival.pair.transform)) continue;
+    if (contradicted(rival, *best, conflict_allowance)) continue;
+    const bool clear = !orientations && best->score > clear_lead * rival.score;
+    if (!clear || contradicted(*best, rival, conflict_allowance))
+      return scene_undecided(orientations, scanners_known);
   }
-  if (candidates[0].refusal) return *candidates[0].refusal;
+  if (best->refusal) return *best->refusal;
   // What the scene said of the other orientations of the chosen pair.
-  DiePair& chosen = candidates[0].pair;
+  DiePair chosen = best->pair;
   for (const Scored& each : candidates)
     if (each.pair.master.candidate == chosen.master.candidate &&
         each.pair.slave.candidate == chosen.slave.candidate)
       chosen.orientations[each.orientation].scene_points = each.score;
-  return std::move(chosen);
+  return chosen;
+}
+
+void ask_scene(const Cloud& master, const ScanSighting& master_sighting, const Cloud& slave,
+               const ScanSighting& slave_sighting, std::vector<Scored>& candidates) {
+  std::vector<RigidTransform> transforms;
+  for (Scored& candidate : candidates) {
+    transforms.push_back(candidate.pair.transform.master_from_slave);
+    candidate.score = scene_agreement(
+        master, scene_planes(master_sighting.planes, candidate.pair.master), slave,
+        scene_planes(slave_sighting.planes, candidate.pair.slave), transforms.back());
+  }
+  if (!master.scanner_position || !slave.scanner_position) return;
+  const std::vector<double> conflicts = scene_conflicts(master, slave, transforms);
+  for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i].conflict = conflicts[i];
 }
 
 Refusal undecided(const DieSighting& master, const DieSighting& slave, std::size_t supported,
@@ -116,10 +158,10 @@ Result<std::vector<Scored>> orient(const DieSighting& master, const DieSighting&
   const std::vector<DieOrientation> all = die_orientations(master, slave, options.levelled);
   const std::size_t supported = supported_orientations(all);
   // Readings of different hands have no orientation in common: the hand is refused further on.
-  if (all.empty() && !options.levelled) {
+  if (supported == 0 && !options.levelled) {
     const Result<DieTransform> transform = transform_by_die(master, slave, options);
     if (!transform) return transform.refusal();
-    return std::vector<Scored>{{{master, slave, *transform, {}}, 0, std::nullopt, 0}};
+    return std::vector<Scored>{{{master, slave, *transform, {}}, 0, std::nullopt, 0, 0}};
   }
   if (supported == 0 || (supported > 1 && !options.resolve_by_scene))
     return undecided(master, slave, supported, options.levelled);
@@ -172,12 +214,8 @@ Result<DiePair> choose_die_pair(const Cloud& master, const ScanSighting& master_
   }
   if (candidates.empty()) return *first_refusal;
   if (candidates.size() == 1) return std::move(candidates[0].pair);
-  for (Scored& candidate : candidates)
-    candidate.score =
-        scene_agreement(master, scene_planes(master_sighting.planes, candidate.pair.master), slave,
-                        scene_planes(slave_sighting.planes, candidate.pair.slave),
-                        candidate.pair.transform.master_from_slave);
-  return best_by_scene(std::move(candidates));
+  ask_scene(master, master_sighting, slave, slave_sighting, candidates);
+  return best_by_scene(std::move(candidates), master.scanner_position && slave.scanner_position);
 }
 
 }  // namespace alea
