@@ -31,14 +31,14 @@ struct MarkerlessArguments {
 };
 
 constexpr double smallest_grid_m = 0.001, largest_grid_m = 10;
-constexpr double smallest_radius_m = 0.01, largest_radius_m = 10;
+constexpr double least_keypoint_radius_m = 0.01, most_keypoint_radius_m = 10;
 
 void set_keypoints(const MarkerlessArguments& arguments, PaperIcpOptions& paper) {
-  if (!(arguments.keypoint_radius_m >= smallest_radius_m &&
-        arguments.keypoint_radius_m <= largest_radius_m))
+  if (!(arguments.keypoint_radius_m >= least_keypoint_radius_m &&
+        arguments.keypoint_radius_m <= most_keypoint_radius_m))
     throw usage_error(fmt::format("--keypoint-radius: {} m; give metres from {} to {}",
-                                  arguments.keypoint_radius_m, smallest_radius_m,
-                                  largest_radius_m));
+                                  arguments.keypoint_radius_m, least_keypoint_radius_m,
+                                  most_keypoint_radius_m));
   if (arguments.keypoints != "none" && arguments.method != "paper")
     throw usage_error("--keypoints belongs to --method paper; the robust method finds its own");
   if (arguments.keypoints == "harris") paper.keypoints = PaperKeypoints::harris;
