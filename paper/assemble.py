@@ -239,13 +239,23 @@ def markerless_numbers(folder):
                "MarkOmegaPrinted": significant(value("audit", "equation 4", "largest error of omega as printed")),
                "MarkGridRatio": significant(value("table1", "grid over all points", "ratio of RMSE at the truth"), 2),
                "MarkAreaRmse": significant(value("success", "RMSE of all points", "area under ROC"), 2),
+               "MarkAreaOverlap": significant(value("success", "overlap", "area under ROC"), 2),
+               "MarkAreaClosure": significant(value("success", "forward-backward closure", "area under ROC"), 2),
                "MarkAreaConflict": significant(value("success", "free-space conflict ratio", "area under ROC"), 2),
+               "MarkAreaMargin": significant(value("success", "margin", "area under ROC"), 2),
                "MarkRight": f"{total('robust', 'right'):.0f}", "MarkRefused": f"{total('robust', 'refused'):.0f}",
                "MarkWrong": f"{total('robust', 'wrong'):.0f}"}
+    near = "0.05 m, paper's ICP from 3 deg, 0.23 m"
+    numbers["MarkNearRotation"] = significant(value("grids", near, "rotation error"), 2)
+    numbers["MarkNearTranslation"] = significant(value("grids", near, "translation error"), 2)
+    for column, name in (("RMSE", "Rmse"), ("rotation error", "Rotation"), ("translation error", "Translation")):
+        numbers[f"MarkGrid{name}"] = significant(value("grids", "widest over finest grid, near the truth", column), 2)
     for twin, table, name in (("bell_tower", "table3", "Tower"), ("lighthouse", "table4", "Lighthouse")):
         pairs = sorted(rows_of(folder / f"{twin}_pairs.csv"), key=lambda pair: float(pair["rmse_m"]))
         for pair, which in ((pairs[0], "Lowest"), (pairs[-1], "Highest")):
             numbers[f"Mark{name}{which}"] = f"{pair['fixed']}--{pair['moving']}"
+        numbers[f"Mark{name}Harris"] = percent(
+            value("keypoints", twin.replace("_", " "), "Harris keypoints are suitable: share of true poses"))
         numbers[f"Mark{name}True"] = percent(value(table, "all pairs", "true poses (1 deg, 0.1 m)"))
         numbers[f"Mark{name}Below"] = percent(
             value(table, "all pairs", "RMSE of the estimate below RMSE of the truth"))

@@ -160,7 +160,7 @@ void add_register_markerless(CLI::App& parent, int& exit_code) {
       ->check(CLI::IsMember({"none", "harris", "iss"}))
       ->capture_default_str();
   app->add_option("--keypoint-radius", a.keypoint_radius_m,
-                  "paper: neighbours of Harris's response (m); ISS takes twice it")
+                  "paper: neighbours of a keypoint's response (m)")
       ->capture_default_str();
   app->add_option("--fixed-origin", a.fixed_origin, "Scanner position in FIXED: X,Y,Z (m)");
   app->add_option("--moving-origin", a.moving_origin, "Scanner position in MOVING: X,Y,Z (m)");

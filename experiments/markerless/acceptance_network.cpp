@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <numbers>
 #include <set>
 
@@ -89,13 +89,13 @@ void report_long_network(const Options& options, const Report& report) {
   for (std::size_t s = 0; s < n; s += 10) pairs.emplace_back(s, (s + n / 2) % n);
   RandomStream stream({options.seed, 6, 1000, 0, Purpose::experiment});
   const NetworkDraw draw = draw_network(scene, pairs, 0.02, stream);
-  const auto start = std::chrono::steady_clock::now();
+  // CPU time of all threads: other processes do not lengthen it, and the wall's is no more.
+  const std::clock_t start = std::clock();
   const auto graph = solve_pose_graph(n, draw.edges);
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   report(
       point_cell("1000 stations with loops: solved", graph ? 1 : 0, "", at_least(1), pairs.size()));
-  report(point_cell("1000 stations with loops: time", seconds, "s", at_most(10), pairs.size()));
+  report(point_cell("1000 stations with loops: CPU time", seconds, "s", at_most(10), pairs.size()));
 }
 
 }  // namespace

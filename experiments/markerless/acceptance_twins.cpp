@@ -53,7 +53,7 @@ void run_markerless_paper(const Options& options, const Report& report) {
     for (const bool tower : {true, false}) {
       const TwinScans scans =
           scan_twin(tower ? bell_tower(twin) : lighthouse(twin), {}, options.seed);
-      const auto trials = run_paper(scans, tower ? 0 : 5, {});
+      const auto trials = run_paper(scans, reference_pairs(scans.clouds.size(), tower ? 0 : 5), {});
       all.insert(all.end(), trials.begin(), trials.end());
     }
   }

@@ -4,14 +4,17 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "alea/markerless/pose_covariance.hpp"
 
 namespace alea::experiments::markerless {
 namespace {
+
+constexpr double arm_m = 5;  // a rotation counts by what it moves there
+constexpr std::size_t most_alternatives = 4;
 
 double rmse_of(const PreparedScan& fixed, const PreparedScan& moving, const RigidTransform& pose) {
   double squares = 0;
@@ -20,76 +23,125 @@ double rmse_of(const PreparedScan& fixed, const PreparedScan& moving, const Rigi
   return std::sqrt(squares / static_cast<double>(moving.fine.size()));
 }
 
-/// Standard deviations of the six parameters as information; the lever arm of a rotation is 5 m.
-double least_information(const PreparedScan& fixed, const PreparedScan& moving,
-                         const RigidTransform& pose) {
+/// Smallest over largest eigenvalue of the information, rotations by what they move at `arm_m`.
+double least_information_of(const PreparedScan& fixed, const PreparedScan& moving,
+                            const RigidTransform& pose) {
   const auto covariance = pose_covariance(fixed, moving, pose, Eigen::Vector3d::Zero());
   if (!covariance) return 0;
   Vector6d scale;
-  scale << Eigen::Vector3d::Constant(5), Eigen::Vector3d::Ones();
+  scale << Eigen::Vector3d::Constant(arm_m), Eigen::Vector3d::Ones();
   const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(scale.asDiagonal() * covariance->covariance *
                                                        scale.asDiagonal());
   return solver.eigenvalues()[0] / solver.eigenvalues()[5];
 }
 
+struct ConsideredPose {
+  std::string source;
+  RigidTransform pose;
+};
+
+/// Those of the robust search, the least contradicted first.
+std::vector<ConsideredPose> robust_poses(const RobustTrial& trial) {
+  std::vector<ConsideredPose> poses;
+  if (!trial.found.report.best) return poses;
+  poses.push_back({"robust", *trial.found.report.best});
+  for (const MarkerlessAlternative& other : trial.found.report.alternatives)
+    if (poses.size() <= most_alternatives)
+      poses.push_back({"alternative", other.fixed_from_moving});
+  return poses;
+}
+
+/// Least conflict ratio of the poses away from one, less its own.
+double margin_of(const std::vector<JudgedPose>& judged, const std::vector<ConsideredPose>& poses,
+                 std::size_t of) {
+  constexpr double apart_deg = 2, apart_m = 0.3;
+  double least = 2;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (poses[i].source == "paper") continue;
+    const PoseError between = pose_error(poses[i].pose, poses[of].pose);
+    if (between.rotation_deg > apart_deg || between.translation_m > apart_m)
+      least = std::min(least, judged[i].conflict_ratio);
+  }
+  return std::clamp(least - judged[of].conflict_ratio, -1.0, 1.0);
+}
+
+/// Places of the pairs' trials by fixed and moving scan.
+template <typename Trial, typename PairOf>
+std::map<std::pair<std::size_t, std::size_t>, const Trial*> by_pair(
+    const std::vector<Trial>& trials, PairOf&& pair_of) {
+  std::map<std::pair<std::size_t, std::size_t>, const Trial*> found;
+  for (const Trial& trial : trials) found[pair_of(trial)] = &trial;
+  return found;
+}
+
+std::size_t place_of(const TwinScans& scans, const std::string& name) {
+  return static_cast<std::size_t>(std::find(scans.names.begin(), scans.names.end(), name) -
+                                  scans.names.begin());
+}
+
 }  // namespace
 
-std::vector<JudgedPose> judged_poses(const PreparedScan& fixed, const PreparedScan& moving,
-                                     const std::vector<RigidTransform>& poses,
-                                     const RigidTransform& truth) {
-  std::vector<JudgedPose> judged;
-  for (const RigidTransform& pose : poses) {
-    const PoseEvidence evidence = pose_evidence(fixed, moving, pose, {});
-    JudgedPose one;
-    one.right = pose_error(pose, truth).is_right();
-    one.rmse_m = rmse_of(fixed, moving, pose);
-    one.overlap = evidence.overlap();
-    one.tilt_deg = std::acos(std::clamp(pose.rotation(2, 2), -1.0, 1.0)) * 180 / std::numbers::pi;
-    one.conflict_ratio = evidence.conflict_ratio();
-    one.least_information = least_information(fixed, moving, pose);
-    judged.push_back(one);
-  }
-  return judged;
+double closure_m(const RigidTransform& fixed_from_moving, const RigidTransform& moving_from_fixed) {
+  const RigidTransform loop = fixed_from_moving * moving_from_fixed;
+  return std::hypot(loop.translation.norm(), arm_m * rotation_angle_rad(loop.rotation));
 }
 
-Interval area_under_roc(const std::vector<double>& right, const std::vector<double>& wrong) {
-  if (right.empty() || wrong.empty()) return {0, 0.5, 1};
-  double wins = 0;
-  for (const double r : right)
-    for (const double w : wrong) wins += r < w ? 1 : r == w ? 0.5 : 0;
-  const auto n = static_cast<double>(right.size()), m = static_cast<double>(wrong.size());
-  const double a = wins / (n * m), q1 = a / (2 - a), q2 = 2 * a * a / (1 + a);
-  const double variance = (a * (1 - a) + (n - 1) * (q1 - a * a) + (m - 1) * (q2 - a * a)) / (n * m);
-  const double half = 1.96 * std::sqrt(std::max(0.0, variance));
-  return {std::max(0.0, a - half), a, std::min(1.0, a + half)};
+std::vector<JudgedPose> judged_poses(const std::string& building, const TwinScans& scans,
+                                     const std::vector<PreparedScan>& prepared,
+                                     const std::vector<RobustTrial>& robust,
+                                     const std::vector<PaperTrial>& paper) {
+  const auto robust_of =
+      by_pair(robust, [](const RobustTrial& t) { return std::pair(t.pair.fixed, t.pair.moving); });
+  const auto paper_of = by_pair(paper, [&](const PaperTrial& t) {
+    return std::pair(place_of(scans, t.fixed), place_of(scans, t.moving));
+  });
+  std::vector<JudgedPose> all;
+  for (const auto& [pair, trial] : robust_of) {
+    const auto [f, m] = pair;
+    const auto reverse = robust_of.find({m, f});
+    if (reverse == robust_of.end() || !reverse->second->found.report.best) continue;
+    std::vector<ConsideredPose> poses = robust_poses(*trial);
+    const auto printed = paper_of.find(pair), printed_reverse = paper_of.find({m, f});
+    if (printed != paper_of.end() && printed_reverse != paper_of.end())
+      poses.push_back({"paper", printed->second->estimate});
+    std::vector<JudgedPose> judged;
+    for (const auto& [source, pose] : poses) {
+      const PoseEvidence evidence = pose_evidence(prepared[f], prepared[m], pose, {});
+      const RigidTransform& back = source == "paper" ? printed_reverse->second->estimate
+                                                     : *reverse->second->found.report.best;
+      JudgedPose one;
+      one.building = building;
+      one.fixed = scans.names[f];
+      one.moving = scans.names[m];
+      one.source = source;
+      one.pair = fmt::format("{} {}-{}", building, scans.names[std::min(f, m)],
+                             scans.names[std::max(f, m)]);
+      one.error = pose_error(pose, scans.truth(f, m));
+      one.rmse_m = rmse_of(prepared[f], prepared[m], pose);
+      one.overlap = evidence.overlap();
+      one.least_information = least_information_of(prepared[f], prepared[m], pose);
+      one.tilt_deg = std::acos(std::clamp(pose.rotation(2, 2), -1.0, 1.0)) * 180 / std::numbers::pi;
+      one.closure_m = closure_m(pose, back);
+      one.conflict_ratio = evidence.conflict_ratio();
+      judged.push_back(one);
+    }
+    for (std::size_t i = 0; i < judged.size(); ++i) judged[i].margin = margin_of(judged, poses, i);
+    all.insert(all.end(), judged.begin(), judged.end());
+  }
+  return all;
 }
 
-ResultTable success_table(const std::vector<JudgedPose>& poses) {
-  ResultTable table{
-      "success",
-      "How well each figure tells true poses from false ones",
-      "Area under the ROC with its 95 % interval (Hanley and McNeil); 0.5 tells nothing.",
-      {}};
-  struct Figure {
-    const char* name;
-    double sign;  ///< so that less is better
-    double JudgedPose::*value;
-  };
-  const std::array<Figure, 5> figures{
-      {{"RMSE of all points", 1, &JudgedPose::rmse_m},
-       {"overlap", -1, &JudgedPose::overlap},
-       {"tilt", 1, &JudgedPose::tilt_deg},
-       {"least information", -1, &JudgedPose::least_information},
-       {"free-space conflict ratio", 1, &JudgedPose::conflict_ratio}}};
-  for (const Figure& figure : figures) {
-    std::vector<double> right, wrong;
-    for (const JudgedPose& pose : poses)
-      (pose.right ? right : wrong).push_back(figure.sign * pose.*figure.value);
-    table.cells.push_back({figure.name, "area under ROC", "", "", area_under_roc(right, wrong),
-                           Verdict::ours,
-                           fmt::format("{} true, {} false poses", right.size(), wrong.size())});
-  }
-  return table;
+std::string poses_csv(const std::vector<JudgedPose>& poses) {
+  std::string text =
+      "building,fixed,moving,source,right,rotation_error_deg,translation_error_m,rmse_m,overlap,"
+      "information_ratio,tilt_deg,closure_m,conflict_ratio,margin\n";
+  for (const JudgedPose& p : poses)
+    text += fmt::format(
+        "{},{},{},{},{},{:.3f},{:.4f},{:.4f},{:.4f},{:.3g},{:.3f},{:.4f},{:.4f},{:.4f}\n",
+        p.building, p.fixed, p.moving, p.source, p.error.is_right() ? 1 : 0, p.error.rotation_deg,
+        p.error.translation_m, p.rmse_m, p.overlap, p.least_information, p.tilt_deg, p.closure_m,
+        p.conflict_ratio, p.margin);
+  return text;
 }
 
 }  // namespace alea::experiments::markerless

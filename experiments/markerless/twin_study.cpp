@@ -4,8 +4,7 @@
 #include <numbers>
 
 #include "alea/cloud/neighbours.hpp"
-#include "alea/cloud/sampling.hpp"
-#include "alea/pipeline/register_by_paper.hpp"
+#include "alea/pipeline/stopwatch.hpp"
 #include "alea/simulate/scanner.hpp"
 
 namespace alea::experiments::markerless {
@@ -44,44 +43,71 @@ PoseError pose_error(const RigidTransform& estimate, const RigidTransform& truth
 
 double rmse_at(const Cloud& fixed, const Cloud& moving, const RigidTransform& fixed_from_moving,
                const PaperIcpOptions& options) {
-  IcpOptions icp_options;
-  icp_options.objective = IcpObjective::point_to_point;
-  icp_options.max_iterations = 0;
-  const PaperScan target = prepare_paper_scan(fixed, options, false);
-  const PaperScan source = prepare_paper_scan(moving, options, false);
-  return icp(target.registered(), source.registered(), fixed_from_moving, icp_options).rmse_m;
+  return rmse_at(prepare_paper_scan(fixed, options, false),
+                 prepare_paper_scan(moving, options, false), fixed_from_moving);
 }
 
-std::vector<PaperTrial> run_paper(const TwinScans& scans, std::size_t reference,
+double rmse_at(const PaperScan& fixed, const PaperScan& moving,
+               const RigidTransform& fixed_from_moving) {
+  IcpOptions options;
+  options.objective = IcpObjective::point_to_point;
+  options.max_iterations = 0;
+  return icp(fixed.registered(), moving.registered(), fixed_from_moving, options).rmse_m;
+}
+
+std::vector<ScanPair> reference_pairs(std::size_t scans, std::size_t reference) {
+  std::vector<ScanPair> pairs;
+  for (const bool forward : {true, false})
+    for (std::size_t other = 0; other < scans; ++other)
+      if (other != reference)
+        pairs.push_back(forward ? ScanPair{reference, other} : ScanPair{other, reference});
+  return pairs;
+}
+
+std::vector<ScanPair> all_pairs(std::size_t scans) {
+  std::vector<ScanPair> pairs;
+  for (std::size_t fixed = 0; fixed < scans; ++fixed)
+    for (std::size_t moving = 0; moving < scans; ++moving)
+      if (fixed != moving) pairs.push_back({fixed, moving});
+  return pairs;
+}
+
+std::vector<PaperTrial> run_paper(const TwinScans& scans, const std::vector<ScanPair>& pairs,
                                   const PaperIcpOptions& options,
                                   const ProgressCallback& progress) {
-  std::vector<PaperTrial> trials;
-  const std::size_t all = 2 * (scans.clouds.size() - 1);
   MarkerlessOptions markerless;
   markerless.method = MarkerlessMethod::paper;
   markerless.paper = options;
-  for (const bool forward : {true, false})
-    for (std::size_t other = 0; other < scans.clouds.size(); ++other) {
-      if (other == reference) continue;
-      const std::size_t f = forward ? reference : other, m = forward ? other : reference;
-      const Cloud &fixed = scans.clouds[f], &moving = scans.clouds[m];
-      const MarkerlessRegistration found = register_markerless(fixed, moving, markerless);
-      PaperTrial trial;
-      trial.fixed = scans.names[f];
-      trial.moving = scans.names[m];
-      trial.truth = scans.truth(f, m);
-      trial.estimate = *found.registration.master_from_slave;
-      trial.error = pose_error(trial.estimate, trial.truth);
-      trial.rmse_m = found.report.rmse_m;
-      trial.rmse_at_truth_m = rmse_at(fixed, moving, trial.truth, options);
-      trial.overlap = found.report.overlap_moving;
-      trial.overlap_at_truth =
-          share_within(grid_average(fixed, 0.05), grid_average(moving, 0.05), trial.truth);
-      trial.iterations = found.report.iterations;
-      trial.time_s = found.registration.timing_s.back().second;
-      trials.push_back(trial);
-      if (progress) progress("pairs of the twin", trials.size(), all);
-    }
+  std::vector<PaperScan> prepared;
+  std::vector<double> sampling_s;
+  Stopwatch stopwatch;
+  for (const Cloud& cloud : scans.clouds) {
+    prepared.push_back(prepare_paper_scan(cloud, options, true));
+    sampling_s.push_back(stopwatch.lap_s());
+  }
+  std::vector<PaperTrial> trials;
+  std::size_t done = 0;
+  for (const auto& [f, m] : pairs) {
+    stopwatch.lap_s();
+    const MarkerlessRegistration found = register_paper_scans(prepared[f], prepared[m], markerless);
+    const double icp_s = stopwatch.lap_s();
+    if (progress) progress("pairs by the paper's method", ++done, pairs.size());
+    if (found.registration.refusal) continue;
+    PaperTrial trial;
+    trial.fixed = scans.names[f];
+    trial.moving = scans.names[m];
+    trial.truth = scans.truth(f, m);
+    trial.estimate = *found.registration.master_from_slave;
+    trial.error = pose_error(trial.estimate, trial.truth);
+    trial.rmse_m = found.report.rmse_m;
+    trial.rmse_at_truth_m = rmse_at(prepared[f], prepared[m], trial.truth);
+    trial.overlap = found.report.overlap_moving;
+    trial.overlap_at_truth = share_within(prepared[f].grid, prepared[m].grid, trial.truth);
+    trial.iterations = found.report.iterations;
+    trial.points_moving = prepared[m].registered().size();
+    trial.time_s = sampling_s[f] + sampling_s[m] + icp_s;
+    trials.push_back(trial);
+  }
   return trials;
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "alea/core/progress.hpp"
-#include "alea/pipeline/register_markerless.hpp"
+#include "alea/pipeline/register_by_paper.hpp"
 #include "experiments/markerless/twin_scene.hpp"
 
 namespace alea::experiments::markerless {
@@ -36,6 +36,10 @@ PoseError pose_error(const RigidTransform& estimate, const RigidTransform& truth
 double rmse_at(const Cloud& fixed, const Cloud& moving, const RigidTransform& fixed_from_moving,
                const PaperIcpOptions& options);
 
+/// The same for scans that are prepared already.
+double rmse_at(const PaperScan& fixed, const PaperScan& moving,
+               const RigidTransform& fixed_from_moving);
+
 /// One pair by the paper's method, beside the truth.
 struct PaperTrial {
   std::string fixed, moving;
@@ -44,12 +48,23 @@ struct PaperTrial {
   double rmse_m = 0, rmse_at_truth_m = 0;
   double overlap = 0, overlap_at_truth = 0;  ///< share of the moving points
   int iterations = 0;
-  std::size_t keypoints_moving = 0;  ///< where the options ask for them
+  std::size_t points_moving = 0;  ///< of the moving scan that ICP sees
   double time_s = 0;
 };
 
+/// Places in the twin's scans.
+struct ScanPair {
+  std::size_t fixed = 0, moving = 0;
+};
+
 /// The reference station with every other, then every other with the reference.
-std::vector<PaperTrial> run_paper(const TwinScans& scans, std::size_t reference,
+std::vector<ScanPair> reference_pairs(std::size_t scans, std::size_t reference);
+
+/// Every scan with every other, both ways.
+std::vector<ScanPair> all_pairs(std::size_t scans);
+
+/// The paper's method on pairs; one with too few keypoints makes no trial.
+std::vector<PaperTrial> run_paper(const TwinScans& scans, const std::vector<ScanPair>& pairs,
                                   const PaperIcpOptions& options,
                                   const ProgressCallback& progress = {});
 

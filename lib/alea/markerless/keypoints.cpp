@@ -92,21 +92,22 @@ std::vector<Keypoint> harris_keypoints(const Cloud& cloud, const HarrisOptions& 
 
 std::vector<Keypoint> iss_keypoints(const Cloud& cloud, const IssOptions& options) {
   const NeighbourIndex index(cloud.positions);
-  std::vector<std::vector<Neighbour>> near(cloud.size());
+  // Only how many: the lists of a dense scan would fill the memory.
+  std::vector<std::size_t> count(cloud.size());
   parallel_chunks(cloud.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      near[i] = index.within(cloud.positions[i], options.salient_radius_m);
+      count[i] = index.within(cloud.positions[i], options.salient_radius_m).size();
   });
   const bool is_plain = options.scatter == IssScatter::plain_sum;
   std::vector<double> response(cloud.size(), none);
   parallel_chunks(cloud.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (near[i].size() < options.least_neighbours) continue;
+      if (count[i] < options.least_neighbours) continue;
       Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
       double weights = 0;
-      for (const Neighbour& other : near[i]) {
+      for (const Neighbour& other : index.within(cloud.positions[i], options.salient_radius_m)) {
         const Eigen::Vector3d d = cloud.positions[other.index] - cloud.positions[i];
-        const double weight = is_plain ? 1 : 1 / static_cast<double>(near[other.index].size());
+        const double weight = is_plain ? 1 : 1 / static_cast<double>(count[other.index]);
         scatter += weight * d * d.transpose();
         weights += weight;
       }

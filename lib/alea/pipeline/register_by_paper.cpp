@@ -33,8 +33,8 @@ std::vector<Keypoint> keypoints_of(const Cloud& grid, const PaperIcpOptions& opt
     return harris_keypoints(grid, harris);
   }
   IssOptions iss;
-  iss.salient_radius_m = 2 * radius_m;
-  iss.suppression_radius_m = 4 * radius_m / 3;
+  iss.salient_radius_m = radius_m;
+  iss.suppression_radius_m = 2 * radius_m / 3;
   return iss_keypoints(grid, iss);
 }
 
@@ -85,30 +85,35 @@ PaperScan prepare_paper_scan(const Cloud& scan, const PaperIcpOptions& options, 
 
 MarkerlessRegistration register_by_paper(const Cloud& fixed, const Cloud& moving,
                                          const MarkerlessOptions& options) {
-  const PaperIcpOptions& paper = options.paper;
   Stopwatch stopwatch;
-  const PaperScan target = prepare_paper_scan(fixed, paper, true);
-  const PaperScan source = prepare_paper_scan(moving, paper, false);
+  const PaperScan target = prepare_paper_scan(fixed, options.paper, true);
+  const PaperScan source = prepare_paper_scan(moving, options.paper, false);
   const double sampling_s = stopwatch.lap_s();
-  MarkerlessRegistration out;
-  out.registration.method = "paper";
-  out.registration.timing_s = {{"sample", sampling_s}, {"total", sampling_s}};
-  note_keypoints(target, source, out.report);
-  out.registration.refusal = too_few_keypoints(target, source, paper);
-  if (out.registration.refusal) return out;
-  const IcpResult result = icp(target.registered(), source.registered(),
-                               options.initial.value_or(RigidTransform{}), icp_options_of(paper));
+  MarkerlessRegistration out = register_paper_scans(target, source, options);
   const double icp_s = stopwatch.lap_s();
-
-  const RigidTransform& pose = result.target_from_source;
-  out.registration.master_from_slave = pose;
-  out.report.rmse_m = result.rmse_m;
-  out.report.iterations = result.iterations;
-  out.report.overlap_moving = overlap_at(NeighbourIndex(target.grid.positions), source.grid, pose);
-  out.report.overlap_fixed =
-      overlap_at(NeighbourIndex(source.grid.positions), target.grid, pose.inverse());
   out.registration.timing_s = {
       {"sample", sampling_s}, {"icp", icp_s}, {"total", sampling_s + icp_s}};
+  return out;
+}
+
+MarkerlessRegistration register_paper_scans(const PaperScan& fixed, const PaperScan& moving,
+                                            const MarkerlessOptions& options) {
+  MarkerlessRegistration out;
+  out.registration.method = "paper";
+  note_keypoints(fixed, moving, out.report);
+  out.registration.refusal = too_few_keypoints(fixed, moving, options.paper);
+  if (out.registration.refusal) return out;
+  const IcpResult result =
+      icp(fixed.registered(), moving.registered(), options.initial.value_or(RigidTransform{}),
+          icp_options_of(options.paper));
+  const RigidTransform& pose = result.target_from_source;
+  out.registration.master_from_slave = pose;
+  out.report.best = pose;
+  out.report.rmse_m = result.rmse_m;
+  out.report.iterations = result.iterations;
+  out.report.overlap_moving = overlap_at(NeighbourIndex(fixed.grid.positions), moving.grid, pose);
+  out.report.overlap_fixed =
+      overlap_at(NeighbourIndex(moving.grid.positions), fixed.grid, pose.inverse());
   if (!result.converged())
     out.registration.warnings.push_back(
         fmt::format("no_convergence: ICP stopped by its {} after {} iterations",

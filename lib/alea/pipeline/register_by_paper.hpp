@@ -23,4 +23,8 @@ PaperScan prepare_paper_scan(const Cloud& scan, const PaperIcpOptions& options, 
 MarkerlessRegistration register_by_paper(const Cloud& fixed, const Cloud& moving,
                                          const MarkerlessOptions& options);
 
+/// The same for scans that are prepared already; `fixed` as a target.
+MarkerlessRegistration register_paper_scans(const PaperScan& fixed, const PaperScan& moving,
+                                            const MarkerlessOptions& options);
+
 }  // namespace alea

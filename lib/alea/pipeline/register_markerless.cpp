@@ -154,6 +154,7 @@ MarkerlessReport report_of(const PreparedScan& fixed, const PreparedScan& moving
   MarkerlessReport report;
   if (hypotheses.empty()) return report;
   const PoseEvidence& best = hypotheses[0].evidence;
+  report.best = own_frames(fixed, moving, hypotheses[0].fixed_from_moving);
   report.overlap_fixed = best.agree_fixed;
   report.overlap_moving = best.agree_moving;
   report.conflict_ratio = best.conflict_ratio();

@@ -27,7 +27,7 @@ struct PaperIcpOptions {
   double rotation_tolerance_rad = 0.5 * 3.14159265358979323846 / 180;
   double translation_tolerance_m = 0.01;
   PaperKeypoints keypoints = PaperKeypoints::none;
-  /// Of Harris's neighbours; 4/3 of it suppresses ISS's, twice it is salient.
+  /// Of Harris's neighbours and of ISS's salient ones; 2/3 of it suppresses ISS's.
   double keypoint_radius_m = 0.3;
 };
 
@@ -70,6 +70,7 @@ struct MarkerlessReport {
   double rmse_m = 0;
   int iterations = 0;                                     ///< paper
   std::size_t keypoints_fixed = 0, keypoints_moving = 0;  ///< paper, where it asks for them
+  std::optional<RigidTransform> best;  ///< the least contradicted pose, also of a refusal
   std::vector<MarkerlessAlternative> alternatives;  ///< other poses, the least contradicted first
 };
 

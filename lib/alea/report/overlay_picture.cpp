@@ -31,11 +31,13 @@ std::vector<Eigen::Vector2d> cut_points(const Cloud& cloud, const RigidTransform
 
 void draw_cut(Canvas& canvas, const PanelArea& area, const Cut& cut,
               const std::pair<Eigen::Vector2d, Eigen::Vector2d>& bounds,
-              const std::array<std::vector<Eigen::Vector2d>, 2>& places, double radius_px) {
+              const std::array<std::vector<Eigen::Vector2d>, 2>& places, double radius_px,
+              const OverlayOptions& options) {
+  const std::string frame = ", " + options.master_name + " (m)";
   Axes axes(canvas, area,
             {.title = cut.title,
-             .x_name = "x, master (m)",
-             .y_name = cut.normal_axis == 2 ? "y, master (m)" : "z, master (m)",
+             .x_name = "x" + frame,
+             .y_name = (cut.normal_axis == 2 ? "y" : "z") + frame,
              .low = bounds.first,
              .high = bounds.second});
   // By turns, so that neither scan hides the other.
@@ -45,7 +47,17 @@ void draw_cut(Canvas& canvas, const PanelArea& area, const Cut& cut,
     for (int scan = 0; scan < 2; ++scan)
       for (std::size_t i = from; i < std::min(from + turn, places[scan].size()); ++i)
         axes.point(places[scan][i], scan == 0 ? colours::master : colours::slave, radius_px);
-  axes.legend({{"master", colours::master}, {"slave", colours::slave}});
+  axes.legend({{options.master_name, colours::master}, {options.slave_name, colours::slave}});
+}
+
+const std::array<Cut, 2> cuts{{{2, "level cut"}, {1, "upright cut"}}};
+
+std::pair<Eigen::Vector2d, Eigen::Vector2d> close_bounds(const Cut& cut,
+                                                         const OverlayOptions& options) {
+  const Eigen::Vector2d centre(options.about_m.x(),
+                               cut.normal_axis == 2 ? options.about_m.y() : options.about_m.z());
+  const Eigen::Vector2d half = Eigen::Vector2d::Constant(options.close_radius_m);
+  return {centre - half, centre + half};
 }
 
 }  // namespace
@@ -53,20 +65,32 @@ void draw_cut(Canvas& canvas, const PanelArea& area, const Cut& cut,
 Picture overlay_picture(const Cloud& master, const Cloud& slave,
                         const RigidTransform& master_from_slave, const OverlayOptions& options) {
   Canvas canvas(1400, 1000);
-  const std::array<Cut, 2> cuts{{{2, "level cut"}, {1, "upright cut"}}};
   for (int row = 0; row < 2; ++row) {
     const Cut& cut = cuts[row];
     const std::array<std::vector<Eigen::Vector2d>, 2> places{
         cut_points(master, {}, cut, options), cut_points(slave, master_from_slave, cut, options)};
     std::vector<Eigen::Vector2d> all = places[0];
     all.insert(all.end(), places[1].begin(), places[1].end());
-    draw_cut(canvas, grid_panel(canvas, 2, 2, 2 * row), cut, bounds_of(all), places, 0.5);
-    const Eigen::Vector2d centre(options.about_m.x(),
-                                 row == 0 ? options.about_m.y() : options.about_m.z());
-    const Eigen::Vector2d half = Eigen::Vector2d::Constant(options.close_radius_m);
+    draw_cut(canvas, grid_panel(canvas, 2, 2, 2 * row), cut, bounds_of(all), places, 0.5, options);
     draw_cut(canvas, grid_panel(canvas, 2, 2, 2 * row + 1),
-             {cut.normal_axis, cut.title + ", close"}, {centre - half, centre + half}, places, 1);
+             {cut.normal_axis, cut.title + ", close"}, close_bounds(cut, options), places, 1,
+             options);
   }
+  return canvas.picture();
+}
+
+Picture overlay_comparison(const Cloud& master, const Cloud& slave,
+                           const std::array<NamedPose, 2>& poses, const OverlayOptions& options) {
+  Canvas canvas(1400, 1400);
+  for (int row = 0; row < 2; ++row)
+    for (int column = 0; column < 2; ++column) {
+      const NamedPose& pose = poses[column];
+      const Cut cut{cuts[row].normal_axis, pose.name + ": " + cuts[row].title};
+      draw_cut(canvas, grid_panel(canvas, 2, 2, 2 * row + column), cut, close_bounds(cut, options),
+               {cut_points(master, {}, cut, options),
+                cut_points(slave, pose.master_from_slave, cut, options)},
+               1, options);
+    }
   return canvas.picture();
 }
 
