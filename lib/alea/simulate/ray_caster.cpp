@@ -1,5 +1,6 @@
 #include "alea/simulate/ray_caster.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -28,6 +29,10 @@ Cells cells_within(const AngleRange& range, double low_rad, double high_rad) {
 /// Departure of a beam from its nominal direction that is never exceeded (rad).
 double margin_rad(const Scanner& scanner) {
   return 8 * scanner.noise.angular_noise_rad + scanner.beam_divergence_rad / 2;
+}
+
+bool comes_within(double distance_m, const Eigen::Vector3d& place_m, const Ray& ray) {
+  return (place_m - ray.origin).cross(ray.direction).squaredNorm() <= distance_m * distance_m;
 }
 
 }  // namespace
@@ -65,13 +70,14 @@ RayCaster::RayCaster(const Scene& scene, const Station& station) : scene_(scene)
   add(SurfaceKind::sphere, scene.spheres, station);
   add(SurfaceKind::checkerboard, scene.checkerboards, station);
   add(SurfaceKind::mesh, scene.meshes, station);
-  for (const Die& die : scene.dice) {
-    const BoundingBall ball = bounding_ball(die);
+  const auto margin_m = [&](const BoundingBall& ball) {
     const double farthest_m =
         (ball.centre_m - station.scene_from_scan.translation).norm() + ball.radius_m;
-    die_margin_m_.push_back(margin_rad(station.scanner) * farthest_m +
-                            station.scanner.beam_diameter_m / 2);
-  }
+    return margin_rad(station.scanner) * farthest_m + station.scanner.beam_diameter_m / 2;
+  };
+  for (const Die& die : scene.dice) die_margin_m_.push_back(margin_m(bounding_ball(die)));
+  for (const Sphere& sphere : scene.spheres)
+    sphere_reach_m_.push_back(sphere.radius_m + margin_m(bounding_ball(sphere)));
 }
 
 std::vector<Candidate> RayCaster::candidates(std::int64_t row) const {
@@ -85,7 +91,10 @@ bool RayCaster::may_hit(const std::vector<Candidate>& candidates, std::int64_t c
                         const Ray& nominal) const {
   for (const Candidate& c : candidates) {
     if (column < c.first_column || column > c.last_column) continue;
-    if (c.kind != SurfaceKind::die || passes(scene_.dice[c.index], die_margin_m_[c.index], nominal))
+    if (c.kind == SurfaceKind::die
+            ? passes(scene_.dice[c.index], die_margin_m_[c.index], nominal)
+            : c.kind != SurfaceKind::sphere ||
+                  comes_within(sphere_reach_m_[c.index], scene_.spheres[c.index].centre_m, nominal))
       return true;
   }
   return false;

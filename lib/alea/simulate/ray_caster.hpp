@@ -26,7 +26,7 @@ class RayCaster {
   std::vector<Candidate> candidates(std::int64_t row) const;
   /// False where no ray that departs from the nominal one by the beam and at most eight standard
   /// deviations of the pointing noise can hit anything: spares the random numbers of a ray that
-  /// passes a die by.
+  /// passes a die or a sphere by.
   bool may_hit(const std::vector<Candidate>& candidates, std::int64_t column,
                const Ray& nominal) const;
   /// The nearest hit of a ray that belongs to `column`; infinite range where there is none.
@@ -43,7 +43,8 @@ class RayCaster {
 
   const Scene& scene_;
   std::vector<RowWindow> windows_;
-  std::vector<double> die_margin_m_;  ///< how far a beam may be off at each die
+  std::vector<double> die_margin_m_;    ///< how far a beam may be off at each die
+  std::vector<double> sphere_reach_m_;  ///< the same at each sphere, from its centre
 };
 
 }  // namespace alea

@@ -24,84 +24,95 @@ struct State {
   double radius;
 };
 
+/// A point as the scanner measured it.
+struct MeasuredRay {
+  Eigen::Vector3d direction;
+  double range;
+};
+
 /// One point's part of the linearised problem.
 struct Row {
   Eigen::Vector4d jacobian;  ///< of the predicted value, by centre and radius
   double residual;           ///< measured minus predicted
-  double sd;                 ///< expected of the residual
+  double variance;           ///< expected of the residual
   double along_normal;       ///< residual times this is a distance along the normal
-  double sine;               ///< of the incidence angle that the ray should have
 };
 
-/// Empty where the ray misses the sphere or only touches it.
-std::optional<Row> row_of(const Eigen::Vector3d& point, const State& state,
+/// Empty where the ray would meet the sphere at more than this sine of the incidence angle.
+std::optional<Row> row_of(const MeasuredRay& ray, const State& state, double sine_limit,
                           const SphereFitOptions& options) {
-  const double range = point.norm();
-  const Eigen::Vector3d ray = point / range;
-  const double sine = ray.cross(state.centre).norm() / state.radius;
-  if (!(sine < largest_sine)) return std::nullopt;
-  const double cosine = std::sqrt(1 - sine * sine);
-  const double predicted = ray.dot(state.centre) - state.radius * cosine;
-  const double normal_sd = options.noise.normal_sd_m(predicted, cosine);
+  const double sine2 =
+      ray.direction.cross(state.centre).squaredNorm() / (state.radius * state.radius);
+  if (!(sine2 < sine_limit * sine_limit)) return std::nullopt;
+  const double cosine = std::sqrt(1 - sine2);
+  const double predicted = ray.direction.dot(state.centre) - state.radius * cosine;
+  const double normal_variance = options.noise.normal_variance_m2(predicted, cosine);
   Row row;
   if (options.method == SphereFitMethod::along_ray) {
-    const Eigen::Vector3d normal = (predicted * ray - state.centre) / state.radius;
-    row.jacobian << -normal / cosine, -1 / cosine;
-    row.residual = range - predicted;
-    row.sd = normal_sd / cosine;
+    row.jacobian << (state.centre - predicted * ray.direction) / (state.radius * cosine),
+        -1 / cosine;
+    row.residual = ray.range - predicted;
+    row.variance = normal_variance / (cosine * cosine);
     row.along_normal = cosine;
   } else {
-    const Eigen::Vector3d lever = point - state.centre;
+    const Eigen::Vector3d lever = ray.range * ray.direction - state.centre;
     row.jacobian << lever.normalized(), 1;
     row.residual = lever.norm() - state.radius;
-    row.sd = normal_sd;
+    row.variance = normal_variance;
     row.along_normal = 1;
   }
-  row.sine = sine;
   return row;
 }
 
 /// Sums over the points that take part.
 struct Sums {
   Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
-  Eigen::Matrix4d spread = Eigen::Matrix4d::Zero();  ///< J' W S W J
+  Eigen::Matrix4d spread = Eigen::Matrix4d::Zero();  ///< J' W S W J, where it is not J' W J
   Eigen::Vector4d right = Eigen::Vector4d::Zero();
   double standardised = 0;  ///< squared residuals over their variances
   double squared_m2 = 0;    ///< along the normal
   std::size_t points = 0;
 };
 
-/// The points whose rays meet the sphere steeply enough and whose residuals pass the gate.
-std::vector<Eigen::Vector3d> members_of(const std::vector<Eigen::Vector3d>& points,
-                                        const State& state, double gate,
-                                        const SphereFitOptions& options) {
-  std::vector<Eigen::Vector3d> members;
-  for (const Eigen::Vector3d& point : points) {
-    const std::optional<Row> row = row_of(point, state, options);
-    if (row && row->sine < std::sin(options.max_incidence_rad) &&
-        std::abs(row->residual) <= gate * row->sd)
-      members.push_back(point);
-  }
-  return members;
+void add(const Row& row, SphereFitMethod method, Sums& sums) {
+  const bool along_ray = method == SphereFitMethod::along_ray;
+  const Eigen::Vector4d weighted = along_ray ? row.jacobian / row.variance : row.jacobian;
+  sums.normal.noalias() += weighted * row.jacobian.transpose();
+  if (!along_ray) sums.spread.noalias() += row.variance * row.jacobian * row.jacobian.transpose();
+  sums.right += row.residual * weighted;
+  sums.standardised += row.residual * row.residual / row.variance;
+  const double distance = row.residual * row.along_normal;
+  sums.squared_m2 += distance * distance;
+  ++sums.points;
 }
 
-Sums sums_of(const std::vector<Eigen::Vector3d>& points, const State& state,
+/// The points whose rays meet the sphere steeply enough and whose residuals pass the gate, and
+/// their sums.
+struct Selected {
+  std::vector<MeasuredRay> members;
+  Sums sums;
+};
+
+Selected select(const std::vector<MeasuredRay>& rays, const State& state, double gate,
+                const SphereFitOptions& options) {
+  const double sine_limit = std::min(largest_sine, std::sin(options.max_incidence_rad));
+  Selected out;
+  out.members.reserve(rays.size());
+  for (const MeasuredRay& ray : rays) {
+    const std::optional<Row> row = row_of(ray, state, sine_limit, options);
+    if (!row || row->residual * row->residual > gate * gate * row->variance) continue;
+    out.members.push_back(ray);
+    add(*row, options.method, out.sums);
+  }
+  return out;
+}
+
+Sums sums_of(const std::vector<MeasuredRay>& members, const State& state,
              const SphereFitOptions& options) {
   Sums sums;
-  for (const Eigen::Vector3d& point : points) {
-    const std::optional<Row> row = row_of(point, state, options);
-    if (!row) continue;
-    const double variance = row->sd * row->sd;
-    const double weight = options.method == SphereFitMethod::along_ray ? 1 / variance : 1;
-    const Eigen::Matrix4d square = row->jacobian * row->jacobian.transpose();
-    sums.normal += weight * square;
-    sums.spread += weight * weight * variance * square;
-    sums.right += weight * row->residual * row->jacobian;
-    sums.standardised += row->residual * row->residual / variance;
-    const double distance = row->residual * row->along_normal;
-    sums.squared_m2 += distance * distance;
-    ++sums.points;
-  }
+  for (const MeasuredRay& ray : members)
+    if (const std::optional<Row> row = row_of(ray, state, largest_sine, options))
+      add(*row, options.method, sums);
   return sums;
 }
 
@@ -124,23 +135,34 @@ SphereFit result_of(const State& state, const Sums& sums, int unknowns,
   fit.rmse_m = std::sqrt(sums.squared_m2 / count);
   fit.variance_factor = sums.standardised / (count - unknowns);
   const Eigen::Matrix4d inverse = inverse_of(sums.normal, unknowns);
-  const Eigen::Matrix4d covariance = fit.variance_factor * inverse * sums.spread * inverse;
+  const bool along_ray = options.method == SphereFitMethod::along_ray;
+  const Eigen::Matrix4d spread = along_ray ? sums.normal : sums.spread;
+  const Eigen::Matrix4d covariance = fit.variance_factor * inverse * spread * inverse;
   fit.covariance = covariance.topLeftCorner<3, 3>();
   fit.radius_sd_m = std::sqrt(covariance(3, 3));
   return fit;
 }
 
-/// The points relative to the scanner, in an order that is theirs alone.
-std::vector<Eigen::Vector3d> ordered(std::span<const Eigen::Vector3d> points,
-                                     const Eigen::Vector3d& scanner_position) {
-  std::vector<Eigen::Vector3d> out;
-  out.reserve(points.size());
+bool comes_before(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  if (a.x() != b.x()) return a.x() < b.x();
+  return a.y() != b.y() ? a.y() < b.y() : a.z() < b.z();
+}
+
+/// The points as rays of the scanner, in an order that is theirs alone.
+std::vector<MeasuredRay> rays_of(std::span<const Eigen::Vector3d> points,
+                                 const Eigen::Vector3d& scanner_position) {
+  std::vector<Eigen::Vector3d> ordered;
+  ordered.reserve(points.size());
   for (const Eigen::Vector3d& point : points)
-    if (point != scanner_position) out.push_back(point - scanner_position);
-  std::sort(out.begin(), out.end(), [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
-  });
-  return out;
+    if (point != scanner_position) ordered.push_back(point - scanner_position);
+  std::sort(ordered.begin(), ordered.end(), comes_before);
+  std::vector<MeasuredRay> rays;
+  rays.reserve(ordered.size());
+  for (const Eigen::Vector3d& point : ordered) {
+    const double range = point.norm();
+    rays.push_back({point / range, range});
+  }
+  return rays;
 }
 
 }  // namespace
@@ -149,18 +171,21 @@ Result<SphereFit> fit_sphere(std::span<const Eigen::Vector3d> points,
                              const Eigen::Vector3d& start_centre_m,
                              const SphereFitOptions& options) {
   if (!(options.radius_m > 0)) throw usage_error("sphere fit: give a positive radius in metres");
-  const std::vector<Eigen::Vector3d> rays = ordered(points, options.scanner_position);
+  const std::vector<MeasuredRay> rays = rays_of(points, options.scanner_position);
   const int unknowns = options.radius_known ? 3 : 4;
   State state{start_centre_m - options.scanner_position, options.radius_m};
   // The gate closes step by step from a third of the radius: as far as the start may be off.
   const double sd_m = options.noise.normal_sd_m(state.centre.norm(), 1);
   double opening = std::max(1.0, state.radius / 3 / (options.gate_sd * std::max(sd_m, 1e-9)));
   double scale = 1;
-  std::vector<Eigen::Vector3d> members;
+  Selected selected;
   bool selecting = true;
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
-    if (selecting) members = members_of(rays, state, options.gate_sd * scale * opening, options);
-    const Sums sums = sums_of(members, state, options);
+    if (selecting)
+      selected = select(rays, state, options.gate_sd * scale * opening, options);
+    else
+      selected.sums = sums_of(selected.members, state, options);
+    const Sums& sums = selected.sums;
     if (sums.points < std::max<std::size_t>(options.min_points, unknowns + 1))
       return Refusal{RefusalCode::too_few_points,
                      "sphere: " + std::to_string(sums.points) + " points on it, " +
