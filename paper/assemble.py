@@ -83,7 +83,7 @@ def write_table(source, work, paper):
                (0.24, "quantity", lambda row: latex(row["column"] + (f" ({row['unit']})" if row["unit"] else ""))),
                (0.09, "printed", lambda row: latex(row["printed"])),
                (0.21, "ours [central 95\\,\\%]", ours_of),
-               (0.12, "verdict", lambda row: latex(row["verdict"].replace("-", ""))),
+               (0.13, "verdict", lambda row: latex(row["verdict"].replace("-", ""))),
                (0.19, "note", lambda row: latex(row["note"]))]
     columns = [column for column in columns if any(column[2](row) for row in rows)]
     spare = (1 - 0.015 * len(columns)) / sum(width for width, _, _ in columns)
@@ -226,8 +226,10 @@ def markerless_numbers(folder):
         return {}
     def value(table, row, column):
         """The one number of a table's row and column."""
-        return next(float(line["ours_median"]) for line in rows_of(folder / f"{table}.csv")
-                    if line["row"] == row and line["column"] == column)
+        for line in rows_of(folder / f"{table}.csv"):
+            if line["row"] == row and line["column"] == column:
+                return float(line["ours_median"])
+        raise KeyError(f"{folder / table}.csv: {row}, {column}")
     def total(table, column):
         return sum(float(line["ours_median"]) for line in rows_of(folder / f"{table}.csv") if line["column"] == column)
     percent = lambda value: f"{100 * value:.0f}"
