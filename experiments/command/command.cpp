@@ -6,12 +6,14 @@
 #include <array>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "alea/core/error.hpp"
 #include "alea/io/atomic_file.hpp"
+#include "experiments/command/number_check.hpp"
 
 namespace alea::command {
 namespace {
@@ -51,10 +53,10 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
                  "Write the result as JSON to this file ('-': standard output)");
   app.add_option("--threads", options.threads,
                  "Threads (0: all cores); the result is the same for any number")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative())
       ->capture_default_str();
   app.add_option("--seed", options.seed, "Seed of every random choice")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative())
       ->capture_default_str();
   app.add_flag("--quiet", options.quiet, "No progress on standard error");
 }
@@ -102,7 +104,7 @@ std::optional<std::array<double, 3>> parse_point(const std::string& option,
   for (int i = 0; i < 3; ++i) {
     const auto [next, error] = std::from_chars(at, end, point[i]);
     const bool separated = i < 2 ? next != end && *next == ',' : next == end;
-    if (error != std::errc{} || !separated)
+    if (error != std::errc{} || !separated || !std::isfinite(point[i]))
       throw usage_error(fmt::format("{}: '{}' is not X,Y,Z in metres; write e.g. {}=1.5,-2,0",
                                     option, text, option));
     at = next + 1;

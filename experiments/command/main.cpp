@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <cstring>
 #include <exception>
@@ -75,7 +76,15 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? exit_done : exit_usage;
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    const auto is_first = [&](const CLI::App* sub) { return sub->check_name(argv[1]); };
+    const auto subcommands = app.get_subcommands({});
+    const bool unknown = argc > 1 && argv[1][0] != '-' &&
+                         std::none_of(subcommands.begin(), subcommands.end(), is_first);
+    const std::string what =
+        unknown ? fmt::format("'{}' is not a subcommand", argv[1]) : error.what();
+    fmt::print(stderr, "alea: {}; --help tells more\n", what);
+    return exit_usage;
   }
   return exit_code;
 }

@@ -32,5 +32,18 @@ TEST(CanonicalOrder, ShuffledCloudsBecomeTheSame) {
       }));
 }
 
+TEST(CanonicalOrder, RepeatedPointsCountOnceUnlessTheirIntensityDiffers) {
+  Cloud cloud;
+  for (const float intensity : {1.0F, 2.0F, 1.0F, 1.0F}) {
+    cloud.positions.emplace_back(1, 2, 3);
+    cloud.intensity.push_back(intensity);
+  }
+  cloud.positions.emplace_back(1, 2, 4);
+  cloud.intensity.push_back(1);
+  const Cloud distinct = without_duplicates(canonical_order(cloud));
+  EXPECT_EQ(distinct.size(), 3u);
+  EXPECT_EQ(distinct.intensity, (std::vector<float>{1, 2, 1}));
+}
+
 }  // namespace
 }  // namespace alea

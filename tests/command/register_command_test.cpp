@@ -95,6 +95,21 @@ TEST_F(RegisterCommand, AbsurdEdgesAreWrongUsageAndWriteNothing) {
   EXPECT_EQ(register_die({}).exit_code, 2);
 }
 
+TEST_F(RegisterCommand, NumbersThatAreNoneAreWrongUsageInOneLine) {
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{"--master-origin", "nan,0,0"},
+        {"--near", "inf,0,0"},
+        {"--threads", "-1"},
+        {"--seed", "-1"}}) {
+    std::vector<std::string> all{"--edge", "0.5"};
+    all.insert(all.end(), options.begin(), options.end());
+    const ProgramRun run = register_die(all);
+    expect_one_line(run, 2, options[0]);
+    EXPECT_LT(run.err.size(), 120u) << run.err;
+  }
+  expect_one_line(run_alea({"regster"}), 2, "'regster' is not a subcommand");
+}
+
 TEST_F(RegisterCommand, BadInputIsNamedWithExitThree) {
   std::ofstream(file("empty.ply"));
   std::ofstream(file("not_a_cloud.ply")) << "hello\n";

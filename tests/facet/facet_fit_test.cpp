@@ -177,6 +177,25 @@ TEST(FacetFit, AGrazingSideWhoseColumnsLieFarApartIsMeasuredToItsEnd) {
   }
 }
 
+TEST(FacetFit, RoundedCoordinatesLeaveNoFacetExact) {
+  // The scanner is level: the upper facet's heights are all the same multiple, or two of them.
+  for (const double step_m : {0.001, 0.002}) {
+    DieScan scan = scan_with_radius(0);
+    for (Eigen::Vector3d& p : scan.cloud.positions) p = (p / step_m).array().round() * step_m;
+    const auto result = fit_facets(scan.cloud, die_facets_of(scan), at_origin());
+    ASSERT_TRUE(result) << result.refusal().message;
+    for (int k = 0; k < 3; ++k) {
+      const PlaneFit& fit = result->fits[k];
+      EXPECT_GT(fit.points, 100u);
+      const Eigen::Vector3d sd = fit.covariance.diagonal().cwiseSqrt();
+      EXPECT_GT(sd.minCoeff(), 1e-6) << step_m;
+      EXPECT_LT(angle_rad(fit.plane.normal, scan.planes[k].normal), 5 * sd.head<2>().norm())
+          << step_m;
+      EXPECT_LT(std::abs(scan.planes[k].signed_distance(fit.centroid_m)), 5 * sd[2]);
+    }
+  }
+}
+
 TEST(FacetExtent, HiddenShareOfARounding) {
   EXPECT_NEAR(hidden_share(0), 0, 1e-12);
   EXPECT_NEAR(hidden_share(std::numbers::pi / 4), 0.5858, 1e-4);

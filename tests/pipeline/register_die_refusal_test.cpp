@@ -120,6 +120,38 @@ TEST(RegisterDieRefuses, TwoLikeDiceOfWhichTheOtherScanShowsOne) {
   expect_refused(dice, RefusalCode::ambiguous_target);
 }
 
+TEST(RegisterDie, ACuboidWhosePipsAreAsFarApartBothWays) {
+  TwoStationCase cuboid;
+  cuboid.window_m = 0.5;
+  cuboid.change_die = [](DieModel& model, int) { model.size_m = {0.3, 0.5, 0.4}; };
+  const TwoScans scans = scan_twice(cuboid);
+  DieRegistrationOptions options;
+  options.edges_m = {0.5, 0.3, 0.4};
+  const Registration result = register_die(scans.master, scans.slave, options);
+  ASSERT_FALSE(result.refusal) << result.refusal->message;
+  const Vector6d error =
+      left_difference(scans.master_from_slave, *result.master_from_slave, Eigen::Vector3d::Zero());
+  EXPECT_LT(error.head<3>().norm(), 0.003);
+  EXPECT_LT(error.tail<3>().norm(), 0.02);
+}
+
+TEST(RegisterDie, RepeatedPointsAreCountedOnceAndSaidSo) {
+  const TwoScans scans = scan_twice({});
+  Cloud twice = scans.master;
+  twice.positions.insert(twice.positions.end(), scans.master.positions.begin(),
+                         scans.master.positions.end());
+  twice.intensity.insert(twice.intensity.end(), scans.master.intensity.begin(),
+                         scans.master.intensity.end());
+  DieRegistrationOptions options;
+  options.edge_m = 0.5;
+  const Registration once = register_die(scans.master, scans.slave, options);
+  const Registration result = register_die(twice, scans.slave, options);
+  ASSERT_FALSE(result.refusal) << result.refusal->message;
+  EXPECT_EQ(result.covariance->covariance, once.covariance->covariance);
+  ASSERT_EQ(result.warnings.size(), once.warnings.size() + 1);
+  EXPECT_TRUE(result.warnings[0].starts_with("duplicate_points: master")) << result.warnings[0];
+}
+
 TEST(RegisterDieRefuses, AScanThatIsMirroredWhateverHandIsAllowed) {
   TwoScans scans = scan_twice({});
   for (Eigen::Vector3d& p : scans.slave.positions) p.y() = -p.y();

@@ -89,4 +89,20 @@ Cloud canonical_order(const Cloud& cloud) {
   return sorted;
 }
 
+Cloud without_duplicates(Cloud sorted) {
+  const auto repeats = [&sorted](std::uint32_t i) {
+    return sorted.positions[i] == sorted.positions[i - 1] &&
+           value_at(sorted.intensity, i) == value_at(sorted.intensity, i - 1) &&
+           value_at(sorted.colours, i) == value_at(sorted.colours, i - 1);
+  };
+  std::vector<std::uint32_t> kept;
+  kept.reserve(sorted.size());
+  for (std::uint32_t i = 0; i < sorted.size(); ++i)
+    if (i == 0 || !repeats(i)) kept.push_back(i);
+  if (kept.size() == sorted.size()) return sorted;
+  Cloud out = subset(sorted, kept);
+  out.dropped = sorted.dropped;
+  return out;
+}
+
 }  // namespace alea

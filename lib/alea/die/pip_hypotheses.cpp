@@ -9,6 +9,15 @@ namespace {
 /// Lattices and radii that dice come with, as shares of the edge.
 constexpr std::array<double, 3> offsets{0.22, 0.25, 0.28};
 constexpr std::array<double, 3> radii{0.07, 0.09, 0.11};
+constexpr std::size_t sizes = offsets.size() * radii.size();
+constexpr double oblong = 1.03;  // edges that differ by more leave two ways to lay out pips
+
+bool is_oblong(const std::array<const FacetImageInput*, 3>& images) {
+  return std::any_of(images.begin(), images.end(), [](const FacetImageInput* image) {
+    return std::max(image->edge_u_m, image->edge_v_m) >
+           oblong * std::min(image->edge_u_m, image->edge_v_m);
+  });
+}
 
 FacetTable tabulate(const PipRaster& raster, const FacetImageInput& image,
                     const PipTemplateShape& shape) {
@@ -57,20 +66,24 @@ void maximise(PipHypothesis& hypothesis, const std::vector<FacetTables>& lattice
 
 }  // namespace
 
+bool is_square_lattice(std::size_t lattice) {
+  return lattice >= sizes;
+}
+
 PipTemplateShape template_shape(std::size_t lattice, const FacetImageInput& image,
                                 const PipReaderOptions& options) {
   const double cell_m = std::max(image.edge_u_m, image.edge_v_m) / PipRasterOptions{}.cells;
   const double spot_sd_m = options.footprint_m / 4;
   const double variance = spot_sd_m * spot_sd_m + cell_m * cell_m / 12 +
                           options.frame_jitter_m * options.frame_jitter_m;
-  return {offsets[lattice / radii.size()], radii[lattice % radii.size()], std::sqrt(variance),
-          spot_sd_m * image.view_slope};
+  return {offsets[lattice % sizes / radii.size()], radii[lattice % radii.size()],
+          std::sqrt(variance), spot_sd_m * image.view_slope, is_square_lattice(lattice)};
 }
 
 std::vector<FacetTables> tabulate_lattices(const std::array<PipRaster, 3>& rasters,
                                            const std::array<const FacetImageInput*, 3>& images,
                                            const PipReaderOptions& options) {
-  std::vector<FacetTables> lattices(offsets.size() * radii.size());
+  std::vector<FacetTables> lattices(is_oblong(images) ? 2 * sizes : sizes);
   for (std::size_t lattice = 0; lattice < lattices.size(); ++lattice)
     for (std::size_t k = 0; k < 3; ++k)
       lattices[lattice][k] =

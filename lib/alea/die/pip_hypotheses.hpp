@@ -21,9 +21,13 @@ struct FacetTable {
 using FacetTables = std::array<FacetTable, 3>;
 
 /// The template of one of the lattices tried (spacings 0.22, 0.25, 0.28 and radii 0.07, 0.09, 0.11
-/// of the edge) on a facet, blurred by spot, cells and the frame's uncertainty.
+/// of the edge; of an oblong facet's edges, or of the shorter one both ways) on a facet, blurred by
+/// spot, cells and the frame's uncertainty.
 PipTemplateShape template_shape(std::size_t lattice, const FacetImageInput& image,
                                 const PipReaderOptions& options);
+
+/// Is it one with the same spacing both ways on an oblong facet?
+bool is_square_lattice(std::size_t lattice);
 
 /// The evidence of the three facets for every lattice.
 std::vector<FacetTables> tabulate_lattices(const std::array<PipRaster, 3>& rasters,

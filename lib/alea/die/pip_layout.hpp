@@ -10,9 +10,14 @@ namespace alea {
 inline constexpr int pip_places = 9;
 
 /// Where place `place` lies on a facet, as a share of its edges, from the corner; `offset` is the
-/// lattice's spacing as a share of the edge.
+/// lattice's spacing as a share of each edge.
+inline Eigen::Vector2d pip_place(int place, const Eigen::Vector2d& offset) {
+  return {0.5 + offset.x() * (place % 3 - 1), 0.5 + offset.y() * (place / 3 - 1)};
+}
+
+/// The same with one share for both edges.
 inline Eigen::Vector2d pip_place(int place, double offset) {
-  return {0.5 + offset * (place % 3 - 1), 0.5 + offset * (place / 3 - 1)};
+  return pip_place(place, Eigen::Vector2d(offset, offset));
 }
 
 /// One way of showing a number: bit i of `places` says that place i carries a pip.

@@ -106,6 +106,13 @@ BlurredPip blurred_pip(const PipRaster& raster, const Eigen::Vector2d& place,
   return pip;
 }
 
+Eigen::Vector2d lattice_place(int place, const PipTemplateShape& shape,
+                              const Eigen::Vector2d& edges_m) {
+  Eigen::Vector2d offset(shape.offset, shape.offset);
+  if (shape.square) offset = shape.offset * edges_m.minCoeff() * edges_m.cwiseInverse();
+  return pip_place(place, offset) + shape.shift;
+}
+
 /// The pips of a pattern, level and slopes eliminated, one value for each cell.
 Eigen::VectorXd pattern_values(const PipRaster& raster, const FacetImageInput& image,
                                const PipTemplateShape& shape, const PipPattern& pattern) {
@@ -114,7 +121,7 @@ Eigen::VectorXd pattern_values(const PipRaster& raster, const FacetImageInput& i
   for (int place = 0; place < pip_places; ++place) {
     if (!pattern.has(place)) continue;
     const BlurredPip pip =
-        blurred_pip(raster, pip_place(place, shape.offset) + shape.shift, edges_m, shape);
+        blurred_pip(raster, lattice_place(place, shape, edges_m), edges_m, shape);
     for (const Eigen::Index i : pip.touched) pips[i] += pip.value[i];
   }
   return pips - raster.basis.transpose() * (raster.basis * raster.weight.cwiseProduct(pips));
@@ -153,8 +160,7 @@ PipPlaces correlate_places(const PipRaster& raster, const FacetImageInput& image
   const Eigen::Vector2d edges_m(image.edge_u_m, image.edge_v_m);
   std::vector<BlurredPip> pips;
   for (int place = 0; place < pip_places; ++place)
-    pips.push_back(
-        blurred_pip(raster, pip_place(place, shape.offset) + shape.shift, edges_m, shape));
+    pips.push_back(blurred_pip(raster, lattice_place(place, shape, edges_m), edges_m, shape));
   PipPlaces places;
   places.gram.setZero();
   places.projection.setZero();

@@ -39,7 +39,10 @@ struct PipTemplateShape {
   double radius = 0.09;                               ///< share of the shorter edge
   double blur_m = 0;                                  ///< one sd, all round
   Eigen::Vector2d smear_m = Eigen::Vector2d::Zero();  ///< one sd, along a direction in the facet
-  Eigen::Vector2d shift = Eigen::Vector2d::Zero();    ///< of the lattice, share of the edges
+  /// Of an oblong facet: the same spacing both ways, a share of the shorter edge; else a share of
+  /// each.
+  bool square = false;
+  Eigen::Vector2d shift = Eigen::Vector2d::Zero();  ///< of the lattice, share of the edges
 };
 
 /// The evidence of the nine places: normal equations of their amplitudes, level and slopes

@@ -199,6 +199,7 @@ Result<PipReading> read_pips(const std::array<FacetImageInput, 3>& images, int o
   reading.pips = best.pips;
   reading.hand = best.hand;
   reading.dark_pips = best.contrast == dark_pips;
+  reading.square_lattice = is_square_lattice(best.lattice);
   compare(best, rivals, lattices[best.lattice], options, reading);
   const Chirality other =
       best.hand == Chirality::clockwise ? Chirality::counterclockwise : Chirality::clockwise;

@@ -58,6 +58,8 @@ struct PipReading {
   int alternatives = 0;      ///< other readings within the required margin
   bool blank = false;        ///< no pips at all: every reading is as likely as the others
   bool dark_pips = true;     ///< false: light pips on dark facets
+  /// On oblong facets: pips as far apart both ways, not as shares of each edge.
+  bool square_lattice = false;
   std::array<FacetEvidence, 3> facets;
   std::vector<WeighedReading> readings;  ///< all that were considered, the best first
 };

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 
+#include "alea/cloud/coordinate_step.hpp"
 #include "alea/core/error.hpp"
 #include "alea/facet/edge_radius.hpp"
 #include "alea/facet/facet_neighbourhood.hpp"
@@ -76,6 +78,12 @@ Members points_of(const FacetNeighbourhood& about, const FacetMembers& members) 
   return out;
 }
 
+/// Of a facet along the axes rounding may leave all heights equal but a few, a step or two off: a
+/// narrower gate would keep them on one side only and tilt the plane.
+double least_gate(std::span<const Eigen::Vector3d> points) {
+  return std::max(least_gate_m, 3 * coordinate_step_m(points));
+}
+
 /// Improves the planes once by their members; empty where they no longer meet in a corner.
 std::optional<State> improve(const Members& members, const FacetFitOptions& options,
                              const State& before) {
@@ -86,7 +94,7 @@ std::optional<State> improve(const Members& members, const FacetFitOptions& opti
     // Without a scanner the fit cannot know the outside; the first planes did.
     if (planes[k].normal.dot(before.corner.planes[k].normal) < 0) planes[k] = planes[k].flipped();
     after.gate_m[k] = options.gate_m.value_or(std::max(
-        least_gate_m,
+        least_gate(members[k]),
         options.gate_sigmas * robust_scale_m(members[k], planes[k], before.corner.corner_m)));
   }
   const auto corner = facet_corner(planes);
@@ -252,10 +260,11 @@ Result<FacetFits> refit_facets(const Cloud& cloud, const FacetFits& before,
   FacetFits out = before;
   for (auto& indices : out.indices) indices.clear();
   State state{before.corner, {}};
+  const double least_m = least_gate(cloud.positions);
   double widest = 0;
   for (int k = 0; k < 3; ++k) {
-    state.gate_m[k] = options.gate_m.value_or(
-        std::max(least_gate_m, options.gate_sigmas * before.fits[k].rmse_m));
+    state.gate_m[k] =
+        options.gate_m.value_or(std::max(least_m, options.gate_sigmas * before.fits[k].rmse_m));
     widest = std::max(widest, state.gate_m[k]);
   }
   const auto about = points_about(cloud, before.corner, borders_of(before.extents), 2 * widest);

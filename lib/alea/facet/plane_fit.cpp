@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "alea/cloud/coordinate_step.hpp"
 #include "alea/core/error.hpp"
 #include "alea/core/order_free_sum.hpp"
 #include "alea/facet/plane_equations.hpp"
@@ -17,6 +18,8 @@ using Points = std::span<const Eigen::Vector3d>;
 constexpr int max_passes = 12;
 // Far below the noise of any scan; a pass squares the error, so the next one would change nothing.
 constexpr double plane_settled_rad = 1e-7, plane_settled_m = 1e-8;
+constexpr double least_noise_m = 1e-7;  // points that lie exactly on a plane are not exact
+constexpr double dithered_share = 0.2;  // of the rounding step: less noise than that rounds alike
 
 void check_options(const PlaneFitOptions& options) {
   if ((options.method == FitMethod::along_ray || options.area_weights) && !options.scanner_position)
@@ -44,6 +47,14 @@ bool settled(const CentredPlane& before, const CentredPlane& after) {
          std::abs(after.normal.dot(before.point - after.point)) < plane_settled_m;
 }
 
+/// The least variance factor that rounding allows.
+double rounding_factor(const std::vector<PlaneObservation>& observations, double step_m) {
+  const double variance_m2 = std::max(step_m * step_m / 12, least_noise_m * least_noise_m);
+  return variance_m2 * order_free_mean(observations, [](const PlaneObservation& o) {
+           return o.by_c * o.by_c / o.variance_m2;
+         });
+}
+
 PlaneFit summarise(Points points, const CentredFrame& frame, CentredPlane plane,
                    const Eigen::Vector3d& mean, const PlaneFitOptions& options) {
   PlaneFit out;
@@ -58,8 +69,13 @@ PlaneFit summarise(Points points, const CentredFrame& frame, CentredPlane plane,
         n / (n - 3) * order_free_mean(observations, [](const PlaneObservation& o) {
           return o.residual_m * o.residual_m / o.variance_m2;
         });
+  const double step_m = coordinate_step_m(points);
+  const double rounding = rounding_factor(observations, step_m);
+  out.variance_factor = std::max(out.variance_factor, rounding);
+  const bool rounded_alike = out.rmse_m < dithered_share * step_m;
+  const double factor = rounded_alike ? n * rounding : out.variance_factor;
   const Eigen::Matrix3d inverse = equations.information.inverse();
-  const Eigen::Matrix3d covariance = out.variance_factor * inverse * equations.spread * inverse;
+  const Eigen::Matrix3d covariance = factor * inverse * equations.spread * inverse;
   out.covariance = (covariance + covariance.transpose()) / 2;
   out.centroid_m = frame.origin_m + plane.point;
   out.plane = {plane.normal, plane.normal.dot(out.centroid_m)};

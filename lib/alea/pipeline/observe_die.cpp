@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "alea/cloud/coordinate_step.hpp"
 #include "alea/die/assembly.hpp"
 #include "alea/die/die_decision.hpp"
 #include "alea/die/pips_chain.hpp"
@@ -89,8 +90,12 @@ FacetFits without_pips(const Cloud& cloud, const FacetFits& facets, const PipRea
                        FacetFitOptions options) {
   for (int k = 0; k < 3; ++k) {
     const double u_m = facets.edges_m[(k + 1) % 3], v_m = facets.edges_m[(k + 2) % 3];
-    options.masks[k] =
-        pip_discs(reading.pips[k], {u_m, v_m}, pip_mask_radius_share * std::min(u_m, v_m));
+    const Eigen::Vector2d edges_m(u_m, v_m);
+    const double shorter_m = edges_m.minCoeff();
+    const Eigen::Vector2d laid_out_m =
+        reading.square_lattice ? Eigen::Vector2d(shorter_m, shorter_m) : edges_m;
+    options.masks[k] = pip_discs(reading.pips[k], laid_out_m, pip_mask_radius_share * shorter_m);
+    for (FacetDisc& disc : options.masks[k]) disc.centre_m += (edges_m - laid_out_m) / 2;
   }
   Result<FacetFits> masked = refit_facets(cloud, facets, options);
   return masked ? *std::move(masked) : facets;
@@ -191,6 +196,7 @@ ScanSighting observe_die(Cloud& cloud, const DieRegistrationOptions& options,
   const bool position_given = cloud.scanner_position.has_value();
   cloud.scanner_position = assumed_position(cloud);
   ScanSighting scan;
+  scan.coordinate_step_m = coordinate_step_m(cloud.positions);
   Stopwatch watch;
   scan.planes = options.find_planes
                     ? options.find_planes(cloud)

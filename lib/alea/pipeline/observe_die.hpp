@@ -34,6 +34,8 @@ struct ScanSighting {
   std::vector<DieSighting> ambiguous;
   std::optional<Refusal> refusal;  ///< where `dice` is empty
   bool scanner_position_known = true;
+  double coordinate_step_m = 0;  ///< to which the scan's coordinates were rounded; 0: not
+  std::size_t duplicates = 0;    ///< points left out because they repeat another
   double planes_s = 0, facets_s = 0, pips_s = 0;  ///< time taken
 };
 

@@ -15,6 +15,8 @@
 namespace alea {
 namespace {
 
+constexpr double coarse_step_m = 0.002;  // rounding that a user should know of
+
 /// The only die of both scans, for a pair that does not determine a transform by itself.
 std::optional<DiePair> only_pair(const ScanSighting& master, const ScanSighting& slave) {
   if (master.dice.size() != 1 || slave.dice.size() != 1) return std::nullopt;
@@ -82,12 +84,22 @@ std::optional<AmbiguityReport> open_orientations(const ScanSighting& master,
 }
 
 void add_sighting_notes(const ScanSighting& master, const ScanSighting& slave, Registration& out) {
-  for (const auto& [scan, name] : {std::pair(&master, "master"), std::pair(&slave, "slave")})
+  for (const auto& [scan, name] : {std::pair(&master, "master"), std::pair(&slave, "slave")}) {
+    if (scan->coordinate_step_m >= coarse_step_m)
+      out.warnings.push_back(fmt::format(
+          "coarse_coordinates: {}: coordinates are multiples of {:g} mm; export the scan in double "
+          "precision or with more decimals, about its own origin",
+          name, 1e3 * scan->coordinate_step_m));
+    if (scan->duplicates > 0)
+      out.warnings.push_back(
+          fmt::format("duplicate_points: {}: {} points repeat another one and count once", name,
+                      scan->duplicates));
     if (!scan->scanner_position_known)
       out.warnings.push_back(fmt::format(
           "scanner_position_unknown: {}: facets were fitted orthogonally; give --{}-origin "
           "X,Y,Z for fits along the ray",
           name, name));
+  }
   out.timing_s.emplace_back("planes", std::max(master.planes_s, slave.planes_s));
   out.timing_s.emplace_back("facets", std::max(master.facets_s, slave.facets_s));
   out.timing_s.emplace_back("pips", std::max(master.pips_s, slave.pips_s));
@@ -97,9 +109,11 @@ std::vector<Observed> observe_all(const Cloud& master, std::span<const Cloud> sl
                                   const DieRegistrationOptions& options) {
   std::vector<Observed> observed(slaves.size() + 1);
   parallel_chunks(observed.size(), 1, [&](std::size_t s, std::size_t) {
-    observed[s].cloud = canonical_order(s == 0 ? master : slaves[s - 1]);
+    const Cloud& scan = s == 0 ? master : slaves[s - 1];
+    observed[s].cloud = without_duplicates(canonical_order(scan));
     observed[s].sighting =
         observe_die(observed[s].cloud, options, s == 0 ? options.near_m : std::nullopt);
+    observed[s].sighting.duplicates = scan.size() - observed[s].cloud.size();
   });
   return observed;
 }
