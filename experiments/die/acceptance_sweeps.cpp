@@ -66,7 +66,7 @@ struct Slope {
 };
 
 void report_slope(const Slope& wanted, const Options& options, const Report& report) {
-  constexpr std::uint64_t own_trials = 300;
+  constexpr std::uint64_t own_trials = 1000;
   constexpr std::size_t groups = 10;
   const std::uint64_t trials = options.trials_or(own_trials);
   SweepSpec spec = committed_sweep(wanted.name, trials, wanted.estimators);
