@@ -21,6 +21,8 @@ std::vector<Topic> die_topics() {
       {"bound", "misfit", "the covariance under warp, rounded edges and range bias", run_misfit},
       {"bound", "planes_only", "covariance of a registration by planes of the scene alone",
        run_planes_only},
+      {"bound", "spheres", "covariance of a registration by six spheres, 1 mrad",
+       run_sphere_coverage},
       {"bound", "plan", "what alea plan predicts against simulated registrations", run_plan},
       {"bound", "suspects",
        "planted wrong facets that are flagged with floor and walls as witnesses; false flags",

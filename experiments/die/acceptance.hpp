@@ -27,6 +27,8 @@ void run_plan(const Options& options, const Report& report);
 void run_suspects(const Options& options, const Report& report);
 /// Issue die, line 10: registration by six spheres against its bound.
 void run_spheres(const Options& options, const Report& report);
+/// Issue bound, line 4: the covariance of a registration by six spheres.
+void run_sphere_coverage(const Options& options, const Report& report);
 /// Issue die, line 7: the counting chain and the likelihood reader on simulated facets.
 void run_pips(const Options& options, const Report& report);
 

@@ -17,7 +17,19 @@
 namespace alea::acceptance {
 namespace {
 
-constexpr double radius_m = 0.0725, ring_m = 4, height_m = 1.6, spheres_step_rad = 3e-4;
+constexpr double radius_m = 0.0725, ring_m = 4, height_m = 1.6;
+
+/// What a topic runs.
+struct Study {
+  double step_rad = 0;
+  std::uint64_t trials = 0;
+  /// The control, the geometric fit, runs in the first trials only: its bias needs no more.
+  std::uint64_t control_trials = 0;
+  std::uint32_t experiment = 0;  ///< key of the random streams
+};
+constexpr Study against_bound{3e-4, 1000, 1000, 10};
+/// A coarse grid, so that a coverage of 10,000 trials is affordable.
+constexpr Study coverage{1e-3, 10000, 0, 11};
 
 /// Six spheres on a ring of 4 m, at heights that a tripod allows; the target point is the ring's
 /// centre.
@@ -36,10 +48,9 @@ RigidTransform pose_at(double range_m, double azimuth_rad) {
                        azimuth_rad + std::numbers::pi);
 }
 
-FisherScene bound_scene(const std::array<RigidTransform, 2>& poses) {
+FisherScene bound_scene(const std::array<RigidTransform, 2>& poses, double step_rad) {
   FisherScene scene;
-  for (const RigidTransform& pose : poses)
-    scene.stations.push_back({pose, spheres_step_rad, unknown_sd});
+  for (const RigidTransform& pose : poses) scene.stations.push_back({pose, step_rad, unknown_sd});
   for (const Eigen::Vector3d& place : sphere_places())
     scene.spheres.push_back({place, radius_m, true});
   return scene;
@@ -47,33 +58,30 @@ FisherScene bound_scene(const std::array<RigidTransform, 2>& poses) {
 
 constexpr std::array methods{SphereFitMethod::along_ray, SphereFitMethod::geometric};
 
-constexpr std::uint64_t sphere_trials = 10000, control_trials = 1000;
-
 /// How many of the methods a trial runs.
-std::size_t methods_at(std::uint64_t trial) {
-  return trial < control_trials ? methods.size() : 1;
+std::size_t methods_at(const Study& study, std::uint64_t trial) {
+  return trial < study.control_trials ? methods.size() : 1;
 }
 
 /// One list of fits for each method.
 using FitsOfMethods = std::array<std::vector<SphereFit>, methods.size()>;
 
-/// The six spheres as one station sees them in one trial, fitted one by one with both methods; the
-/// control only in the first trials, for its bias needs no more. The grid's phase is drawn, so that
-/// no cell rests on one fortunate grid.
-FitsOfMethods fits_of(const RigidTransform& pose, std::uint32_t scan, std::uint64_t trial,
-                      const Options& options) {
-  const RandomStream phases({options.seed, 10, trial, scan, Purpose::station});
+/// The six spheres as one station sees them in one trial, fitted one by one. The grid's phase is
+/// drawn, so that no cell rests on one fortunate grid.
+FitsOfMethods fits_of(const Study& study, const RigidTransform& pose, std::uint32_t scan,
+                      std::uint64_t trial, std::uint64_t seed) {
+  const RandomStream phases({seed, study.experiment, trial, scan, Purpose::station});
   FitsOfMethods fits;
   const std::vector<Eigen::Vector3d> places = sphere_places();
   for (std::size_t k = 0; k < places.size(); ++k) {
     Scene scene;
     scene.spheres = {{"", places[k], radius_m, 0.9}};
     const auto phase = phases.uniform2_at(k);
-    const Station station = aimed_station(pose, bounding_ball(scene.spheres[0]), spheres_step_rad,
+    const Station station = aimed_station(pose, bounding_ball(scene.spheres[0]), study.step_rad,
                                           Eigen::Vector2d(phase[0], phase[1]));
     const std::uint32_t part = scan * 16 + static_cast<std::uint32_t>(k);
-    const Cloud cloud = simulate_scan(scene, station, {options.seed, 10, trial, part});
-    for (std::size_t m = 0; m < methods_at(trial); ++m) {
+    const Cloud cloud = simulate_scan(scene, station, {seed, study.experiment, trial, part});
+    for (std::size_t m = 0; m < methods_at(study, trial); ++m) {
       SphereFitOptions fit;
       fit.method = methods[m];
       fit.radius_m = radius_m;
@@ -156,31 +164,37 @@ void report_method(double range_m, SphereFitMethod method, const std::vector<Err
   report(refused);
 }
 
-void report_range(double range_m, const Options& options, const Report& report) {
+void report_range(const Study& study, double range_m, const Options& options,
+                  const Report& report) {
   const std::array<RigidTransform, 2> poses{pose_at(range_m, std::numbers::pi / 4),
                                             pose_at(range_m, 3 * std::numbers::pi / 4)};
-  const PoseAccuracy bound = pose_accuracy(
-      *relative_covariance(fisher_bound(bound_scene(poses)), 0, 1, {0, 0, height_m / 2}));
-  const std::uint64_t trials = options.trials_or(sphere_trials);
+  const PoseAccuracy bound = pose_accuracy(*relative_covariance(
+      fisher_bound(bound_scene(poses, study.step_rad)), 0, 1, {0, 0, height_m / 2}));
+  const std::uint64_t trials = options.trials_or(study.trials);
   std::array<std::vector<Errors>, methods.size()> errors;
   for (std::size_t m = 0; m < methods.size(); ++m)
-    errors[m].resize(m == 0 ? trials : std::min(trials, control_trials));
+    errors[m].resize(m == 0 ? trials : std::min(trials, study.control_trials));
   parallel_chunks(trials, 8, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
-      const FitsOfMethods master = fits_of(poses[0], 0, t, options);
-      const FitsOfMethods slave = fits_of(poses[1], 1, t, options);
-      for (std::size_t m = 0; m < methods_at(t); ++m)
+      const FitsOfMethods master = fits_of(study, poses[0], 0, t, options.seed);
+      const FitsOfMethods slave = fits_of(study, poses[1], 1, t, options.seed);
+      for (std::size_t m = 0; m < methods_at(study, t); ++m)
         errors[m][t] = errors_of(poses, master[m], slave[m]);
     }
   });
-  for (std::size_t m = 0; m < methods.size(); ++m)
+  for (std::size_t m = 0; m < methods_at(study, 0); ++m)
     report_method(range_m, methods[m], errors[m], bound, report);
 }
 
 }  // namespace
 
 void run_spheres(const Options& options, const Report& report) {
-  for (const double range_m : {3.0, 6.0, 9.0, 12.0}) report_range(range_m, options, report);
+  for (const double range_m : {3.0, 6.0, 9.0, 12.0})
+    report_range(against_bound, range_m, options, report);
+}
+
+void run_sphere_coverage(const Options& options, const Report& report) {
+  for (const double range_m : {3.0, 6.0, 9.0}) report_range(coverage, range_m, options, report);
 }
 
 }  // namespace alea::acceptance
