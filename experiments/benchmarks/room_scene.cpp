@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 
+#include "alea/facet/plane_fit.hpp"
 #include "alea/plane/region_fit.hpp"
 
 namespace alea::benchmarks {
@@ -18,8 +19,31 @@ double angle_deg(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::asin(std::min(1.0, a.cross(b).norm())) * 180 / std::numbers::pi;
 }
 
-Room make_room(std::size_t points) {
+/// Standard deviation (deg) of the angle that a plane's points determine with only the scanner's
+/// noise: the fit along the ray to exactly the true points.
+double own_sd_deg(const Cloud& cloud, const std::vector<std::uint32_t>& members) {
+  std::vector<Eigen::Vector3d> points;
+  for (const std::uint32_t i : members) points.push_back(cloud.positions[i]);
+  PlaneFitOptions options;
+  options.scanner_position = cloud.scanner_position;
+  options.noise = NoiseModel{.range_noise_m = testing::ScanOptions{}.range_noise_m,
+                             .grazing_m = 0,
+                             .surface_m = 0,
+                             .angular_noise_rad = 0};
+  const Eigen::Matrix3d covariance = fit_plane(points, options).covariance;
+  return std::sqrt(covariance(0, 0) + covariance(1, 1)) * 180 / std::numbers::pi;
+}
+
+struct Match {
+  double overlap = 0;
+  std::size_t set = 0;
+};
+
+}  // namespace
+
+Room make_room(std::size_t points, std::uint64_t seed) {
   testing::ScanOptions options;
+  options.seed = seed;
   options.scanner = {3.5, 2.5, 1.5};
   options.step_rad =
       std::sqrt(2 * std::numbers::pi * std::numbers::pi / static_cast<double>(points));
@@ -30,17 +54,10 @@ Room make_room(std::size_t points) {
   return out;
 }
 
-struct Match {
-  double overlap = 0;
-  std::size_t set = 0;
-};
-
-}  // namespace
-
 const Room& room(std::size_t points) {
   static std::map<std::size_t, Room> rooms;
   auto it = rooms.find(points);
-  if (it == rooms.end()) it = rooms.emplace(points, make_room(points)).first;
+  if (it == rooms.end()) it = rooms.emplace(points, make_room(points, 1)).first;
   return it->second;
 }
 
@@ -74,6 +91,8 @@ Recovery recovery(const Room& room, const std::vector<std::vector<std::uint32_t>
         normals.empty() ? fit_region(room.scan.cloud, sets[set]).plane.normal : normals[set];
     const Eigen::Vector3d ideal = fit_region(room.scan.cloud, members[p]).plane.normal;
     const double error = angle_deg(fit, truth);
+    out.errors.push_back({p, members[p].size(), error, angle_deg(ideal, truth),
+                          own_sd_deg(room.scan.cloud, members[p])});
     out.worst_deg = std::max(out.worst_deg, error);
     out.worst_ideal_deg = std::max(out.worst_ideal_deg, angle_deg(ideal, truth));
     if (angle_deg(ideal, truth) <= 0.02)

@@ -16,8 +16,18 @@ struct Room {
   std::vector<testing::Rectangle> planes;
 };
 
-/// Made once for each number of points.
+Room make_room(std::size_t points, std::uint64_t seed);
+/// With seed 1, made once for each number of points.
 const Room& room(std::size_t points);
+
+/// How far a plane of 1,000 points or more is off.
+struct PlaneError {
+  std::size_t plane = 0;  ///< into Room::planes
+  std::size_t points = 0;
+  double fit_deg = 0;
+  double ideal_deg = 0;   ///< of the orthogonal fit to exactly the true points
+  double own_sd_deg = 0;  ///< that the true points allow: standard deviation of the angle
+};
 
 /// How well sets of points recover the true planes.
 struct Recovery {
@@ -28,6 +38,7 @@ struct Recovery {
   double worst_deg = 0;
   double worst_determined_deg = 0;
   double worst_ideal_deg = 0;  ///< of the fits to exactly the true points
+  std::vector<PlaneError> errors;
 };
 /// `normals` of the sets where the method gives them; empty: by least squares of the sets.
 Recovery recovery(const Room& room, const std::vector<std::vector<std::uint32_t>>& sets,

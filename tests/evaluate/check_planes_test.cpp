@@ -66,6 +66,24 @@ class CheckPlanes : public ::testing::Test {
   }
 };
 
+TEST(CheckPlanesOfWalls, TheTwoSidesOfAWallAreTwoPlanes) {
+  const auto side_of_wall = [](std::uint32_t scan_number, double x,
+                               const Eigen::Vector3d& scanner) {
+    RandomStream stream({22, 0, 0, scan_number, Purpose::test});
+    TestScan scan;
+    add_rectangle(scan, stream, {x, 0, 0}, {0, 3, 0}, {0, 0, 2}, 5000);
+    scan.cloud.scanner_position = scanner;
+    return scan;
+  };
+  const TestScan master = side_of_wall(0, 4, {1, 1, 1.6});
+  const auto common = [&](const TestScan& slave) {
+    return find_common_planes(master.cloud, master.regions, slave.cloud, slave.regions, {}).size();
+  };
+  EXPECT_EQ(common(side_of_wall(1, 4.1, {7, 1, 1.6})), 0u);
+  EXPECT_EQ(common(side_of_wall(1, 4.1, {2, 1, 1.6})), 1u);    // 0.1 m off, but the same side
+  EXPECT_EQ(common(side_of_wall(1, 4.002, {7, 1, 1.6})), 1u);  // a thin board
+}
+
 TEST_F(CheckPlanes, ThreeCommonPlanesAgreeToTheNoiseUnderTheTrueTransform) {
   const auto planes = evaluate(master_from_slave_);
   ASSERT_EQ(planes.size(), 3u);

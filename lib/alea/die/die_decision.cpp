@@ -12,15 +12,15 @@ DecidedDice decide_dice(const Cloud& cloud, std::vector<PlaneRegion> regions,
   constexpr std::size_t most_places = 4;
   constexpr double ball_share = 1.2;  // of the edge: holds a cube about the middle of an edge of it
   DieSearch search = search_dice(cloud, regions, options);
-  std::vector<Eigen::Vector3d> places = search.adjacent_pairs_m;
+  std::vector<FacetPair> pairs = search.pairs;
   const bool found = !search.accepted.empty();
   const std::size_t planes = regions.size();
   DecidedDice out{std::move(regions), result_of(std::move(search), planes, options)};
   if (found) return out;
-  places.resize(std::min(places.size(), most_places));
-  for (const Eigen::Vector3d& place : places) {
+  pairs.resize(std::min(pairs.size(), most_places));
+  for (const FacetPair& pair : pairs) {
     std::vector<PlaneRegion> decided =
-        decide_regions(cloud, out.regions, {place, ball_share * longest_edge_m(options)},
+        decide_regions(cloud, out.regions, {pair.place_m, ball_share * longest_edge_m(options)},
                        {.tolerance_m = tolerance_m, .seed = seed});
     auto dice = find_dice(cloud, decided, options);
     if (dice) return {std::move(decided), std::move(dice)};

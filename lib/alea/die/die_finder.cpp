@@ -14,10 +14,8 @@ namespace alea {
 namespace {
 
 // First look, on the detector's planes: wide enough that a bad die is named, not overlooked.
-constexpr double loose_dot = 0.5736;  // sine of 35 deg
 constexpr double least_size_share = 0.25, largest_size_share = 2.2;
-constexpr double largest_centre_distance = 1.5;  // of the longest edge; a cube has 0.71
-constexpr double same_place = 0.5;               // of the shortest edge: one die found twice
+constexpr double same_place = 0.5;  // of the shortest edge: one die found twice
 constexpr std::size_t max_triples = 64;
 
 std::array<double, 3> sorted_edges(const DieFinderOptions& options) {
@@ -34,19 +32,6 @@ std::string text(const char* format, double first, double second = 0) {
   return buffer.data();
 }
 
-/// Largest distance of a region's points from its centroid, roughly: the 95 % quantile. For a
-/// square facet about 0.62 of its edge.
-double reach_of(const Cloud& cloud, const PlaneRegion& region) {
-  std::vector<double> distances;
-  distances.reserve(region.indices.size());
-  for (const std::uint32_t i : region.indices)
-    distances.push_back((cloud.positions[i] - region.centroid_m).squaredNorm());
-  const auto rank = distances.begin() + static_cast<std::ptrdiff_t>(0.95 * distances.size());
-  if (rank == distances.end()) return 0;
-  std::nth_element(distances.begin(), rank, distances.end());
-  return std::sqrt(*rank);
-}
-
 Plane towards(const Plane& plane, const std::optional<Eigen::Vector3d>& scanner) {
   return scanner && plane.signed_distance(*scanner) < 0 ? plane.flipped() : plane;
 }
@@ -60,16 +45,11 @@ std::vector<std::size_t> facet_sized(const Cloud& cloud, const std::vector<Plane
   for (std::size_t i = 0; i < regions.size(); ++i) {
     if (options.near_m && (regions[i].centroid_m - *options.near_m).norm() > radius + edges[2])
       continue;
-    const double size = reach_of(cloud, regions[i]) / 0.62;
+    const double size = square_edge_m(cloud, regions[i]);
     if (size > least_size_share * edges[0] && size < largest_size_share * edges[2])
       out.push_back(i);
   }
   return out;
-}
-
-bool may_adjoin(const PlaneRegion& a, const PlaneRegion& b, double longest_edge_m) {
-  return std::abs(a.plane.normal.dot(b.plane.normal)) < loose_dot &&
-         (a.centroid_m - b.centroid_m).norm() < largest_centre_distance * longest_edge_m;
 }
 
 using Triple = std::array<std::size_t, 3>;
@@ -151,7 +131,8 @@ std::optional<Refusal> why_not(const DieCandidate& die, const DieFinderOptions& 
                "a die",
                degrees, options.max_dihedral_error_rad * 180 / std::numbers::pi)};
     const double expected = die.facets.edges_m[j] / (1 + die.size_error[j]);
-    const double slack = options.max_size_error * expected + 3 * die.facets.edges_sd_m[j];
+    const double smaller = std::min(expected, die.facets.edges_m[j]);
+    const double slack = options.max_size_error * smaller + die.facets.edges_sd_m[j];
     if (std::abs(die.facets.edges_m[j] - expected) > slack)
       return Refusal{RefusalCode::size_mismatch,
                      text("the body found has an edge of %.3f m where %.3f m is expected; check "
@@ -195,23 +176,25 @@ std::vector<Triple> corner_triples(const std::vector<PlaneRegion>& regions,
   return out;
 }
 
-std::vector<Eigen::Vector3d> pair_places(const std::vector<PlaneRegion>& regions,
-                                         const std::vector<std::size_t>& sized,
-                                         double longest_edge_m) {
-  std::vector<std::pair<double, Eigen::Vector3d>> found;
-  for (std::size_t a = 0; a < sized.size(); ++a)
-    for (std::size_t b = a + 1; b < sized.size(); ++b) {
-      const PlaneRegion &first = regions[sized[a]], &second = regions[sized[b]];
-      if (!may_adjoin(first, second, longest_edge_m)) continue;
-      const double distance = (first.centroid_m - second.centroid_m).norm();
-      found.emplace_back(std::abs(distance - longest_edge_m / std::numbers::sqrt2),
-                         (first.centroid_m + second.centroid_m) / 2);
-    }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<Eigen::Vector3d> out;
-  for (const auto& [misfit, place] : found) out.push_back(place);
-  return out;
+/// A pair that shows a die where no rejected body stands: both planes of a facet's size, neither a
+/// part of such a body.
+bool any_lone_pair(const Cloud& cloud, const std::vector<PlaneRegion>& regions,
+                   const DieSearch& search, const std::array<double, 3>& edges) {
+  constexpr double size_share = 0.25;
+  const auto of_a_body = [&](std::size_t region) {
+    return std::any_of(search.rejected.begin(), search.rejected.end(), [&](const RejectedDie& die) {
+      return std::find(die.regions.begin(), die.regions.end(), region) != die.regions.end();
+    });
+  };
+  const auto fits = [&](std::size_t region) {
+    const double size = square_edge_m(cloud, regions[region]);
+    return !of_a_body(region) && size > (1 - size_share) * edges[0] &&
+           size < (1 + size_share) * edges[2];
+  };
+  return std::any_of(search.pairs.begin(), search.pairs.end(), [&](const FacetPair& pair) {
+    return looks_like_a_die(pair, regions, edges[2]) && fits(pair.regions[0]) &&
+           fits(pair.regions[1]);
+  });
 }
 
 template <typename T>
@@ -229,7 +212,7 @@ DieSearch search_dice(const Cloud& cloud, const std::vector<PlaneRegion>& region
   const double radius = options.near_radius_m > 0 ? options.near_radius_m : 2 * edges[2];
   const auto sized = facet_sized(cloud, regions, options);
   std::vector<DieCandidate> found;
-  out.adjacent_pairs_m = pair_places(regions, sized, edges[2]);
+  out.pairs = facet_pairs(regions, sized, edges[2]);
   for (const Triple& triple : corner_triples(regions, sized, options)) {
     const auto facets = fit_facets(
         cloud, {regions[triple[0]], regions[triple[1]], regions[triple[2]]}, options.facets);
@@ -246,6 +229,7 @@ DieSearch search_dice(const Cloud& cloud, const std::vector<PlaneRegion>& region
   }
   best_first(found);
   best_first(out.rejected);
+  out.lone_pair = any_lone_pair(cloud, regions, out, edges);
   for (DieCandidate& die : found) {
     const bool again =
         std::any_of(out.accepted.begin(), out.accepted.end(), [&](const DieCandidate& better) {
@@ -260,18 +244,60 @@ double longest_edge_m(const DieFinderOptions& options) {
   return sorted_edges(options)[2];
 }
 
+std::vector<double> cube_sizes(const Cloud& cloud, const std::vector<PlaneRegion>& regions) {
+  constexpr double alike = 1.25, same = 1.1;
+  constexpr std::size_t most = 4;
+  std::vector<double> sizes;
+  for (const PlaneRegion& region : regions) sizes.push_back(square_edge_m(cloud, region));
+  const auto count_like = [&](double size) {
+    return std::count_if(sizes.begin(), sizes.end(),
+                         [&](double each) { return each < alike * size && size < alike * each; });
+  };
+  std::vector<std::pair<std::ptrdiff_t, double>> ranked;
+  for (const double size : sizes)
+    if (const auto count = count_like(size); count >= 3) ranked.emplace_back(-count, size);
+  std::sort(ranked.begin(), ranked.end());
+  std::vector<double> out;
+  for (const auto& [count, size] : ranked) {
+    const bool known = std::any_of(out.begin(), out.end(), [&](double each) {
+      return each < same * size && size < same * each;
+    });
+    if (!known && out.size() < most) out.push_back(size);
+  }
+  return out;
+}
+
+double square_edge_m(const Cloud& cloud, const PlaneRegion& region) {
+  constexpr double quantile = 0.95, share_of_edge = 0.62;  // of a square's points
+  std::vector<double> distances;
+  distances.reserve(region.indices.size());
+  for (const std::uint32_t i : region.indices)
+    distances.push_back((cloud.positions[i] - region.centroid_m).squaredNorm());
+  const auto rank = distances.begin() + static_cast<std::ptrdiff_t>(quantile * distances.size());
+  if (rank == distances.end()) return 0;
+  std::nth_element(distances.begin(), rank, distances.end());
+  return std::sqrt(*rank) / share_of_edge;
+}
+
 Result<std::vector<DieCandidate>> result_of(DieSearch search, std::size_t planes,
                                             const DieFinderOptions& options) {
   if (!search.accepted.empty()) return std::move(search.accepted);
-  if (!search.rejected.empty()) return search.rejected.front().refusal;
+  // A body of another size beside two facets of the right one is furniture.
+  const bool furniture = !search.rejected.empty() && search.lone_pair &&
+                         search.rejected.front().refusal.code == RefusalCode::size_mismatch;
+  if (!search.rejected.empty() && !furniture) return search.rejected.front().refusal;
   const std::string size = text("%.3f m", longest_edge_m(options));
-  if (!search.adjacent_pairs_m.empty())
+  if (!search.pairs.empty())
     return Refusal{RefusalCode::too_few_facets,
                    "only two adjacent planes of about " + size +
                        " were found together, a corner needs three; scan from where three facets "
                        "of the die are seen"};
-  return Refusal{RefusalCode::no_die, "none of the " + std::to_string(planes) +
-                                          " planes found makes a die of " + size +
+  const std::string none = "none of the " + std::to_string(planes) + " planes found";
+  if (options.near_m)
+    return Refusal{RefusalCode::no_die, none + " makes a die of " + size +
+                                            " near the place that --near names (in the master's "
+                                            "frame); check it, or leave it out"};
+  return Refusal{RefusalCode::no_die, none + " makes a die of " + size +
                                           "; check --edge, or narrow the search with --near"};
 }
 

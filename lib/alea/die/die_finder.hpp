@@ -9,6 +9,7 @@
 
 #include "alea/core/cloud.hpp"
 #include "alea/core/result.hpp"
+#include "alea/die/facet_pairs.hpp"
 #include "alea/facet/facet_fit.hpp"
 #include "alea/plane/plane_detector.hpp"
 
@@ -20,7 +21,8 @@ struct DieFinderOptions {
   std::optional<std::array<double, 3>> edges_m;
   std::optional<Eigen::Vector3d> near_m;  ///< the die's centre lies within near_radius_m of it
   double near_radius_m = 0;               ///< 0: twice the longest expected edge
-  double max_size_error = 0.15;  ///< share of the expected edge, beyond 3 sd of the extents
+  /// Share of the smaller of both, the expected edge and that of the extents, beyond their sd.
+  double max_size_error = 0.15;
   double max_dihedral_error_rad = 0.3490658503988659;  ///< 20 deg from a right angle
   double min_coverage = 0.6;  ///< share of each facet's area that must carry points
   FacetFitOptions facets;     ///< scanner position, noise and how the facets are fitted
@@ -48,9 +50,10 @@ struct RejectedDie {
 struct DieSearch {
   std::vector<DieCandidate> accepted;  ///< best first
   std::vector<RejectedDie> rejected;   ///< nearest miss first
-  /// Between the centroids of near-orthogonal, close planes of about the right size (m), the pair
-  /// whose distance suits the die best first: a die of which a third facet is missing shows as one.
-  std::vector<Eigen::Vector3d> adjacent_pairs_m;
+  /// Near-orthogonal, close planes of about the right size, the pair whose distance suits the die
+  /// best first: a die of which a third facet is missing shows as one.
+  std::vector<FacetPair> pairs;
+  bool lone_pair = false;  ///< one of them is no part of a rejected body and looks like a die
 };
 
 /// The published rule (planes below a size, pairwise dot products near zero, centres close), then
@@ -62,6 +65,13 @@ DieSearch search_dice(const Cloud& cloud, const std::vector<PlaneRegion>& region
 
 /// The longest edge that is expected (m).
 double longest_edge_m(const DieFinderOptions& options);
+
+/// Edges of the cubes that may be among the planes (m): sizes that three of them have to within a
+/// quarter, that of most planes first, four at most.
+std::vector<double> cube_sizes(const Cloud& cloud, const std::vector<PlaneRegion>& regions);
+
+/// Edge of a square whose points reach as far from their centroid as this region's (m).
+double square_edge_m(const Cloud& cloud, const PlaneRegion& region);
 
 /// What a search over so many planes comes to: its accepted candidates, or why there are none.
 Result<std::vector<DieCandidate>> result_of(DieSearch search, std::size_t planes,

@@ -27,6 +27,17 @@ Eigen::Vector2d view_slope(const FacetImageInput& image, const Plane& plane,
   return axes.transpose() * ray / std::max(cosine, steepest);
 }
 
+/// Where the scanner's ray to a point meets the plane: noise in the range, or a pip's depth, then
+/// moves no mark. Without a scanner, or along the plane, the point itself.
+Eigen::Vector3d on_plane(const Eigen::Vector3d& point, const Plane& plane,
+                         const std::optional<Eigen::Vector3d>& scanner) {
+  if (!scanner) return point;
+  const double from = plane.signed_distance(*scanner), to = plane.signed_distance(point);
+  constexpr double least_fall = 1e-3;  // of the scanner's height: the ray runs along the plane
+  if (!(std::abs(from - to) > least_fall * std::abs(from))) return point;
+  return *scanner + from / (from - to) * (point - *scanner);
+}
+
 constexpr int levels = 4096;
 
 /// Counts of intensity in 4096 classes of the range; values outside go to its ends.
@@ -89,7 +100,8 @@ std::array<FacetImageInput, 3> facet_images(
     image.uv_m.reserve(indices[k].size());
     image.intensity.reserve(indices[k].size());
     for (const std::uint32_t i : indices[k]) {
-      image.uv_m.emplace_back(uv_from_xyz * (cloud.positions[i] - corner.corner_m));
+      const Eigen::Vector3d place = on_plane(cloud.positions[i], planes[k], cloud.scanner_position);
+      image.uv_m.emplace_back(uv_from_xyz * (place - corner.corner_m));
       image.intensity.push_back(cloud.intensity[i]);
     }
     if (cloud.scanner_position)

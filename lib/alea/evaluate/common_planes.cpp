@@ -13,6 +13,8 @@ namespace {
 // A raster of more cells than this (a plane of kilometres) gets wider ones.
 constexpr double most_grid_cells = 1 << 24;
 constexpr std::uint32_t outside = 0xffffffffu;
+// Below this the two sides of a board are as good as one plane.
+constexpr double thinnest_wall_m = 0.01;
 
 /// The box of a master region in its plane, divided into square cells; in the master frame.
 struct Raster {
@@ -87,6 +89,18 @@ bool roughly_coplanar(const PlaneRegion& master, const PlaneRegion& slave,
   const Eigen::Vector3d centroid = master_from_slave * slave.centroid_m;
   const double reach = (centroid - master.centroid_m).norm() * std::sin(options.max_angle_rad);
   return std::abs(master.plane.signed_distance(centroid)) < options.max_offset_m + reach;
+}
+
+/// How far apart the two planes may lie. A wall seen from both its sides is two planes, its
+/// thickness apart: normals point to the scanners, where those are known.
+double most_offset_m(const Cloud& master, const CommonPlane& pair, const Cloud& slave,
+                     const RigidTransform& master_from_slave, const CommonPlaneOptions& options) {
+  if (!master.scanner_position || !slave.scanner_position) return options.max_offset_m;
+  const Eigen::Vector3d slave_scanner = master_from_slave * *slave.scanner_position;
+  const Plane& plane = pair.fit_master.plane;
+  const bool same_side =
+      plane.signed_distance(*master.scanner_position) * plane.signed_distance(slave_scanner) > 0;
+  return same_side ? options.max_offset_m : std::min(options.max_offset_m, thinnest_wall_m);
 }
 
 /// A master region held ready for all the slave regions that may share its plane.
@@ -182,7 +196,9 @@ std::vector<CommonPlane> find_common_planes(const Cloud& master,
     CommonPlane pair;
     parallel_pair([&] { pair.fit_master = fit_subset(master, candidate.indices_master); },
                   [&] { pair.fit_slave = fit_subset(slave, candidate.indices_slave); });
-    if (!agree_over_area(pair, master_from_slave, options.max_offset_m)) continue;
+    if (!agree_over_area(pair, master_from_slave,
+                         most_offset_m(master, pair, slave, master_from_slave, options)))
+      continue;
     master_taken[candidate.master] = slave_taken[candidate.slave] = true;
     pair.id = static_cast<int>(pairs.size()) + 1;
     pair.indices_master = std::move(candidate.indices_master);

@@ -17,6 +17,16 @@ struct Footprints {
   std::vector<Eigen::Vector2d> about_m;  // the same and what is near its plane
 };
 
+/// Area that a step of the scanner's grid covers, per step^2. Columns close up towards the poles of
+/// the scan's own z axis: without the cosine of the elevation a wall seen from above grows longer
+/// downwards, by 3 mm in 0.5 m at 4 m.
+double area_of_step(const Eigen::Vector3d& ray, double towards) {
+  constexpr double least_cosine = 0.05;  // about the poles the grid says little
+  const double range = ray.norm();
+  const double cosine = std::max(least_cosine, ray.head<2>().norm() / range);
+  return cosine * range * range * range / std::max(1e-6, towards);
+}
+
 Footprints footprints_on(std::span<const Eigen::Vector3d> points, const FacetCorner& corner, int k,
                          const Eigen::Vector2d& rough_m, const ExtentOptions& options) {
   const FacetPlacer placer(corner, SelectionDomain::ray, options.scanner_position);
@@ -31,9 +41,8 @@ Footprints footprints_on(std::span<const Eigen::Vector3d> points, const FacetCor
     out.about_m.push_back(uv);
     if (height > options.outside_gate_m || height < -options.inside_gate_m) continue;
     const Eigen::Vector3d ray = p - options.scanner_position;
-    const double range = ray.norm();
     out.uv_m.push_back(uv);
-    out.area_m2.push_back(range * range * range / std::max(1e-6, -normal.dot(ray)));
+    out.area_m2.push_back(area_of_step(ray, -normal.dot(ray)));
   }
   return out;
 }
@@ -121,7 +130,7 @@ void measure_axis(const Footprints& facet, const FacetCorner& corner, int k, int
   out.high_m[axis] =
       per_metre > 0 ? to + area_between(facet, axis, to, end + bin) / per_metre : end;
   out.border_m[axis] = out.length_m[axis] = out.high_m[axis];
-  out.sampling_sd_m[axis] = 0.5 * spacing_m;
+  out.sampling_sd_m[axis] = spacing_m / std::sqrt(12.0);  // the end lies anywhere between two lines
   if (goes_on(facet, axis, end, bin)) {
     out.hidden_sd_m[axis] = options.outside_gate_m / 2;
     return;
@@ -132,9 +141,9 @@ void measure_axis(const Footprints& facet, const FacetCorner& corner, int k, int
   const double hidden =
       options.edge_radius_m * hidden_share(incidence_across(corner, k, border, ray));
   out.border_m[axis] += hidden;
-  out.length_m[axis] += hidden + options.footprint_m / 2;
-  // The share of a footprint that still counts as the facet is between none and half of it.
-  out.hidden_sd_m[axis] = std::hypot(0.3 * hidden, options.footprint_m / 2 / std::sqrt(3.0));
+  // A beam is lost at the border by up to half its footprint, by nothing where it is a point.
+  out.length_m[axis] += hidden + options.footprint_m / 4;
+  out.hidden_sd_m[axis] = std::hypot(0.3 * hidden, options.footprint_m / 4);
 }
 
 }  // namespace

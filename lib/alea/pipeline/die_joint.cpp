@@ -62,11 +62,47 @@ void drop_plane(JointScans& joint, int id) {
     std::erase_if(scan.planes, [&](const ScenePlane& plane) { return plane.id == id; });
 }
 
-/// The tests of the facets with the scene's planes as witnesses. A plane that is clearly stranger
-/// than any facet is itself no witness: it is left out and the tests are made again.
-std::vector<FacetTest> tests_with_witnesses(const std::vector<SlaveRun>& runs, JointScans joint,
-                                            const AdjustmentOptions& options,
-                                            std::vector<FacetTest> alone) {
+/// What the scene's planes say of the facets and of the lengths that were given.
+struct Witnesses {
+  std::vector<FacetTest> tests;
+  std::vector<std::string> warnings;
+};
+
+/// A length that the user gave is itself on trial: held exact, a wrong one would make the planes
+/// accuse the facets.
+AdjustmentOptions with_doubtful_edges(AdjustmentOptions options) {
+  constexpr double doubt = 0.15;  // of the length: further off the size is refused
+  for (KnownEdge& edge : options.edges) edge.sd_m = std::max(edge.sd_m, doubt * edge.length_m);
+  return options;
+}
+
+/// Given lengths that the planes contradict by more than three standard deviations.
+std::vector<std::string> doubtful_edges(const std::vector<KnownEdge>& given,
+                                        const DieAdjustment& witnessed) {
+  std::vector<std::string> warnings;
+  for (const KnownEdge& edge : given)
+    for (const AdjustedEdge& seen : witnessed.edges) {
+      const bool same = seen.edge.first_pips == edge.edge.first_pips &&
+                        seen.edge.second_pips == edge.edge.second_pips;
+      if (!same || !seen.length_m || !seen.sd_m) continue;
+      const double difference_m = *seen.length_m - edge.length_m;
+      if (std::abs(difference_m) <= 3 * std::hypot(*seen.sd_m, edge.sd_m)) continue;
+      warnings.push_back(
+          fmt::format("edge_unverified: the planes that the scans share make edge {} {:.4f} m long "
+                      "(sd {:.4f}), "
+                      "{:+.1f} mm from the given {:.4f} m; measure it or use --calibrate",
+                      edge_name(edge.edge.first_pips, edge.edge.second_pips), *seen.length_m,
+                      *seen.sd_m, difference_m * 1e3, edge.length_m));
+    }
+  return warnings;
+}
+
+/// The tests of the facets and of the given lengths with the scene's planes as witnesses. A plane
+/// that is clearly stranger than any facet is itself no witness: it is left out and the tests are
+/// made again.
+Witnesses hear_witnesses(const std::vector<SlaveRun>& runs, JointScans joint,
+                         const AdjustmentOptions& given, std::vector<FacetTest> alone) {
+  const AdjustmentOptions options = with_doubtful_edges(given);
   for (AdjustmentScan& scan : joint.scans) scan.planes.clear();
   const std::size_t share = most_witnesses / std::max<std::size_t>(1, joint.run_of.size());
   add_planes(runs, joint, true, [&](const SlaveRun&, std::size_t p) { return p < share; });
@@ -76,10 +112,11 @@ std::vector<FacetTest> tests_with_witnesses(const std::vector<SlaveRun>& runs, J
     // Facets come first in the tests, so the first suspect is a plane only where no facet is one.
     const auto first = std::find_if(adjusted->tests.begin(), adjusted->tests.end(),
                                     [](const FacetTest& test) { return test.suspect; });
-    if (first == adjusted->tests.end() || first->pips > 0) return adjusted->tests;
+    if (first == adjusted->tests.end() || first->pips > 0)
+      return {adjusted->tests, doubtful_edges(given.edges, *adjusted)};
     drop_plane(joint, first->plane);
   }
-  return alone;
+  return {std::move(alone), {}};
 }
 
 std::string scan_name(std::size_t scan, std::size_t slaves) {
@@ -173,8 +210,8 @@ void adjust_together(std::vector<SlaveRun>& runs, const DieRegistrationOptions& 
     for (const std::size_t r : joint.run_of) runs[r].refusal = adjusted.refusal();
     return;
   }
-  const AdjustmentReport report =
-      report_of(*adjusted, joint, tests_with_witnesses(runs, joint, adjustment, adjusted->tests));
+  const Witnesses witnesses = hear_witnesses(runs, joint, adjustment, adjusted->tests);
+  const AdjustmentReport report = report_of(*adjusted, joint, witnesses.tests);
   for (std::size_t s = 0; s < joint.run_of.size(); ++s) {
     SlaveRun& run = runs[joint.run_of[s]];
     run.adjustment = report;
@@ -186,6 +223,7 @@ void adjust_together(std::vector<SlaveRun>& runs, const DieRegistrationOptions& 
     }
     for (std::string& warning : warnings_of(report, runs.size()))
       run.transform.warnings.push_back(std::move(warning));
+    for (const std::string& warning : witnesses.warnings) run.transform.warnings.push_back(warning);
   }
 }
 

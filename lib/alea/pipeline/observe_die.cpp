@@ -9,6 +9,7 @@
 #include "alea/die/die_decision.hpp"
 #include "alea/die/pips_chain.hpp"
 #include "alea/die/pips_rule.hpp"
+#include "alea/facet/facet_surface.hpp"
 #include "alea/pipeline/stopwatch.hpp"
 
 namespace alea {
@@ -70,15 +71,21 @@ Result<PipReading> read_by_counting(const std::array<FacetImageInput, 3>& images
   return reading;
 }
 
+/// From all points whose rays meet the facets inside their borders, also those deeper than the gate
+/// of the fits: without its drilled pips a facet shows other ones.
 Result<PipReading> read_facets(const Cloud& cloud, const FacetFits& facets,
                                const CornerAssembly& corner, const DieRegistrationOptions& options,
-                               bool keep_ambiguous) {
+                               const FacetFitOptions& fit, bool keep_ambiguous) {
+  constexpr double deepest_pip = 0.06;  // of the edge
+  const bool published = is_published(options.method);
+  const double edge_m = *std::min_element(facets.edges_m.begin(), facets.edges_m.end());
+  const std::array<std::vector<std::uint32_t>, 3> points =
+      published ? facets.indices : facet_surface(cloud, facets, fit, deepest_pip * edge_m);
   const std::array<Plane, 3> planes{facets.fits[0].plane, facets.fits[1].plane,
                                     facets.fits[2].plane};
-  const std::array<std::span<const std::uint32_t>, 3> indices{facets.indices[0], facets.indices[1],
-                                                              facets.indices[2]};
-  const auto images = facet_images(cloud, indices, planes, corner, facets.edges_m);
-  if (is_published(options.method)) return read_by_counting(images, corner.orientation, options);
+  const auto images =
+      facet_images(cloud, {points[0], points[1], points[2]}, planes, corner, facets.edges_m);
+  if (published) return read_by_counting(images, corner.orientation, options);
   PipReaderOptions reader;
   reader.chirality = options.chirality;
   reader.keep_ambiguous = keep_ambiguous;
@@ -135,7 +142,7 @@ ReadDice read_candidates(const Cloud& cloud, const std::vector<DieCandidate>& ca
     const auto corner = assemble_corner({fits[0].plane, fits[1].plane, fits[2].plane});
     if (!corner) continue;
     const Result<PipReading> reading =
-        read_facets(cloud, candidate.facets, *corner, options, keep_ambiguous);
+        read_facets(cloud, candidate.facets, *corner, options, fit, keep_ambiguous);
     if (!reading) {
       if (!out.refusal) out.refusal = reading.refusal();
       continue;
@@ -185,6 +192,49 @@ void find_and_read(const Cloud& cloud, const DieFinderOptions& finder,
   scan.pips_s += watch.lap_s();
 }
 
+/// Whether no body of the die's shape and size was found.
+bool is_missing(const std::optional<Refusal>& refusal) {
+  return refusal &&
+         (refusal->code == RefusalCode::no_die || refusal->code == RefusalCode::too_few_facets ||
+          refusal->code == RefusalCode::too_few_points ||
+          refusal->code == RefusalCode::size_mismatch);
+}
+
+/// The usual tolerance splits the planes of a noisy scanner: where no die was found, a wider one is
+/// tried.
+void look_again(const Cloud& cloud, PlaneDetectionOptions detection, const DieFinderOptions& finder,
+                const DieRegistrationOptions& options, ScanSighting& scan) {
+  constexpr double wider = 3;
+  detection.tolerance_m *= wider;
+  Stopwatch watch;
+  ScanSighting again = scan;
+  again.planes = detect_planes(cloud, detection);
+  again.planes_s += watch.lap_s();
+  find_and_read(cloud, finder, options, again);
+  if (!is_missing(again.refusal)) scan = std::move(again);
+}
+
+/// A die of another size, recognised by its pips, is a wrong --edge; a body without is furniture.
+void name_other_size(const Cloud& cloud, const DieFinderOptions& finder,
+                     const DieRegistrationOptions& options, ScanSighting& scan) {
+  for (const double edge_m : cube_sizes(cloud, scan.planes)) {
+    DieFinderOptions other = finder;
+    other.edge_m = edge_m;
+    other.edges_m.reset();
+    const auto dice = find_dice(cloud, scan.planes, other);
+    if (!dice) continue;
+    const ReadDice read = read_candidates(cloud, *dice, other.facets, options, false);
+    if (read.dice.empty()) continue;
+    const auto& edges_m = read.dice.front().edges_m;
+    scan.refusal = Refusal{
+        RefusalCode::size_mismatch,
+        fmt::format("the die found has edges of {:.3f}, {:.3f} and {:.3f} m where {:.3f} m is "
+                    "expected; check --edge and its unit",
+                    edges_m[0], edges_m[1], edges_m[2], longest_edge_m(finder))};
+    return;
+  }
+}
+
 }  // namespace
 
 std::string edge_name(int first_pips, int second_pips) {
@@ -198,12 +248,17 @@ ScanSighting observe_die(Cloud& cloud, const DieRegistrationOptions& options,
   ScanSighting scan;
   scan.coordinate_step_m = coordinate_step_m(cloud.positions);
   Stopwatch watch;
-  scan.planes = options.find_planes
-                    ? options.find_planes(cloud)
-                    : detect_planes(cloud, {.detector = options.planes, .seed = options.seed});
+  const PlaneDetectionOptions detection{.detector = options.planes, .seed = options.seed};
+  scan.planes = options.find_planes ? options.find_planes(cloud) : detect_planes(cloud, detection);
   scan.planes_s = watch.lap_s();
   scan.scanner_position_known = cloud.scanner_position.has_value();
-  find_and_read(cloud, finder_options(options, near_m, cloud.scanner_position), options, scan);
+  const DieFinderOptions finder = finder_options(options, near_m, cloud.scanner_position);
+  find_and_read(cloud, finder, options, scan);
+  const bool second_look = !options.find_planes && !is_published(options.method);
+  if (second_look && is_missing(scan.refusal)) look_again(cloud, detection, finder, options, scan);
+  const bool blank = scan.refusal && scan.refusal->code == RefusalCode::pips_unreadable;
+  if (second_look && (blank || is_missing(scan.refusal)))
+    name_other_size(cloud, finder, options, scan);
   if (!scan.refusal || position_given || !cloud.scanner_position) return scan;
   // The origin was a guess: without it the facets can still be fitted orthogonally.
   ScanSighting unplaced = scan;
