@@ -48,11 +48,13 @@ Cloud read_ascii(const InputFile& file, const PcdHeader& header, const ReadOptio
 // `planar`: one field after the other, as binary_compressed has them, rather than point by point.
 RecordTable table_of(const PcdHeader& header, bool planar) {
   RecordTable table;
+  const std::vector<std::optional<FieldRole>> roles = roles_of(role_names(header));
+  const std::size_t record_size = header.record_size();
   std::size_t offset = 0;
   for (const PcdField& field : header.fields) {
     const std::size_t size = size_of(field.type) * field.count;
     table.columns.push_back(
-        {role_name(field), field.type, offset, planar ? size : header.record_size()});
+        {roles[table.columns.size()], field.type, offset, planar ? size : record_size});
     offset += planar ? size * header.points : size;
   }
   return table;
@@ -113,6 +115,7 @@ ScanFile read_pcd(const InputFile& file, const ReadOptions& options) {
   if (!channels_of(role_names(header)).positions)
     throw input_error(
         fmt::format("{}: no fields x, y and z; a scan needs coordinates", file.path()));
+  check_names(file.path(), role_names(header));
   switch (header.encoding) {
     case PcdEncoding::ascii:
       scan.cloud = read_ascii(file, header, options);

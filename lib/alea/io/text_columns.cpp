@@ -61,23 +61,26 @@ void count_lines(const TextTable& table, Chunk& chunk) {
 class LineParser {
  public:
   LineParser(const TextTable& table, const TextPlace& place, Cloud& cloud)
-      : table_(table), place_(place), cloud_(cloud) {
-    for (const std::string& name : table.names) roles_.push_back(role_of(name));
-    for (const char c : {' ', '\t', '\r'}) separates_[static_cast<unsigned char>(c)] = true;
-    for (const char c : {',', ';'}) separates_[static_cast<unsigned char>(c)] = table.commas;
+      : table_(table), place_(place), cloud_(cloud), roles_(roles_of(table.names)) {
+    for (const char c : {' ', '\t', '\r'}) blank_[static_cast<unsigned char>(c)] = true;
   }
 
   // Parses the line at `at`; returns where the next one starts.
   const char* parse(const char* at, const char* end, std::size_t number, std::size_t point) const {
     for (std::size_t c = 0; c < roles_.size(); ++c) {
-      const double value = next_value(at, end, number, c);
-      if (c < table_.lists.size() && table_.lists[c]) {
-        for (double i = 0; i < value; ++i) next_value(at, end, number, c);
-      } else if (roles_[c]) {
-        store(*roles_[c], c, value, point);
+      to_column(at, end, number, c);
+      if (table_.free_text && !roles_[c]) {
+        skip_text(at, end);
+        continue;
       }
+      const double value = next_value(at, end, number, c);
+      if (c < table_.lists.size() && table_.lists[c])
+        skip_list(value, at, end, number, c);
+      else if (roles_[c])
+        store(*roles_[c], c, value, point);
     }
-    while (at != end && separates(*at)) ++at;
+    skip_blanks(at, end);
+    if (at != end && *at == table_.separator) skip_blanks(++at, end);
     if (at != end && *at != '\n')
       throw input_error(fmt::format("{}: line {}: more than the {} values expected", place_.path,
                                     number, roles_.size()));
@@ -85,17 +88,57 @@ class LineParser {
   }
 
  private:
-  bool separates(char c) const { return separates_[static_cast<unsigned char>(c)]; }
+  bool is_blank(char c) const { return blank_[static_cast<unsigned char>(c)]; }
+  bool ends_value(char c) const { return is_blank(c) || c == '\n' || c == table_.separator; }
+  void skip_blanks(const char*& at, const char* end) const {
+    while (at != end && is_blank(*at)) ++at;
+  }
 
-  double next_value(const char*& at, const char* end, std::size_t number, std::size_t c) const {
-    while (at != end && separates(*at)) ++at;
+  // Moves to where the value of column c begins.
+  void to_column(const char*& at, const char* end, std::size_t number, std::size_t c) const {
+    skip_blanks(at, end);
+    const bool separated = at != end && table_.separator != 0 && c > 0;
+    if (separated && *at == table_.separator) {
+      skip_blanks(++at, end);
+      return;
+    }
+    if (separated && *at != '\n')
+      throw input_error(fmt::format("{}: line {}: expected '{}' before column {}", place_.path,
+                                    number, table_.separator, c + 1));
     if (at == end || *at == '\n')
       throw input_error(fmt::format("{}: line {}: {} values, expected {}", place_.path, number, c,
                                     roles_.size()));
+  }
+
+  // Moves behind a value that is not wanted: a text in quotation marks, or all up to a separator.
+  void skip_text(const char*& at, const char* end) const {
+    if (at != end && *at == '"')
+      at = std::find_if(at + 1, end, [](char c) { return c == '"' || c == '\n'; });
+    const char* const from = at;
+    at = std::find_if(from, end, [&](char c) {
+      return c == '\n' || (table_.separator != 0 ? c == table_.separator : is_blank(c));
+    });
+  }
+
+  // The values behind the count of a list (PLY).
+  void skip_list(double count, const char*& at, const char* end, std::size_t number,
+                 std::size_t c) const {
+    if (!(count >= 0) || count != std::floor(count))
+      throw input_error(
+          fmt::format("{}: line {}: the count of a list is {}; expected a whole "
+                      "number (column {})",
+                      place_.path, number, count, c + 1));
+    for (double i = 0; i < count; ++i) {
+      to_column(at, end, number, c);
+      next_value(at, end, number, c);
+    }
+  }
+
+  double next_value(const char*& at, const char* end, std::size_t number, std::size_t c) const {
     const NumberText read = read_number(at, end);
-    if (read.end == at || (read.end != end && !separates(*read.end) && *read.end != '\n')) {
+    if (read.end == at || (read.end != end && !ends_value(*read.end))) {
       const char* const word =
-          std::find_if(at, end, [](char letter) { return is_separator(letter) || letter == '\n'; });
+          std::find_if(at, end, [&](char letter) { return ends_value(letter); });
       throw input_error(fmt::format("{}: line {}: '{}' is not a number (column {})", place_.path,
                                     number, std::string(at, word).substr(0, 40), c + 1));
     }
@@ -140,7 +183,7 @@ class LineParser {
   const TextPlace& place_;
   Cloud& cloud_;
   std::vector<std::optional<FieldRole>> roles_;
-  std::array<bool, 256> separates_{};
+  std::array<bool, 256> blank_{};
 };
 
 DroppedPoints parse_chunk(const LineParser& parser, const TextTable& table, const Chunk& chunk,

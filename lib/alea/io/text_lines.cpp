@@ -1,10 +1,14 @@
 #include "alea/io/text_lines.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <limits>
+
+#include "alea/core/error.hpp"
 
 namespace alea {
 
@@ -13,6 +17,23 @@ TextLine line_at(std::string_view text, std::size_t offset) {
   if (found == nullptr) return {text.substr(offset), text.size()};
   const auto end = static_cast<std::size_t>(static_cast<const char*>(found) - text.data());
   return {text.substr(offset, end - offset), end + 1};
+}
+
+std::size_t start_of_text(const std::string& path, std::string_view bytes) {
+  const auto refuse = [&](const char* what) {
+    throw input_error(fmt::format("{}: line 1: {}; expected lines of numbers", path, what));
+  };
+  if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF"))
+    refuse("UTF-16 text, which is not read; save it as UTF-8");
+  const std::string_view front = bytes.substr(0, 4096);
+  if (front.find('\0') != std::string_view::npos) refuse("binary data");
+  const auto end = front.find_first_of("\r\n");
+  if (end != std::string_view::npos && front[end] == '\r') {
+    const auto next = bytes.find_first_not_of('\r', end);
+    if (next != std::string_view::npos && bytes[next] != '\n')
+      refuse("a line that ends in CR alone; save it with the line ends of Unix or Windows");
+  }
+  return bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0;
 }
 
 std::vector<std::string_view> split_values(std::string_view line) {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,6 +20,10 @@ struct TextLine {
   std::size_t next;
 };
 TextLine line_at(std::string_view text, std::size_t offset);
+
+/// The offset of the first character, behind a byte order mark of UTF-8. Throws Error(input) for
+/// what is no text in lines of 8-bit characters: zero bytes, UTF-16, lines that end in CR alone.
+std::size_t start_of_text(const std::string& path, std::string_view bytes);
 
 /// The values of a line, split at blanks, tabs, commas or semicolons.
 std::vector<std::string_view> split_values(std::string_view line);
