@@ -56,6 +56,14 @@ TEST_F(OddFiles, TextWithAnyLineEndsAndByteOrderMark) {
   EXPECT_THAT(error("a.xyz", "1 2 3\r4 5 6\r"), HasSubstr("ends in CR alone"));
 }
 
+TEST_F(OddFiles, AZeroByteIsNoBlank) {
+  std::string text;
+  for (int i = 0; i < 1000; ++i) text += "1 2 3\n";
+  EXPECT_THAT(error("a.xyz", text + std::string("4 5 6\0\n", 7)), HasSubstr("line 1001"));
+  EXPECT_THAT(error("a.xyz", text + std::string("4\0 5 6\n", 7)), HasSubstr("line 1001"));
+  EXPECT_THAT(error("a.xyz", std::string("4 5\0 6\n", 7)), HasSubstr("binary data"));
+}
+
 // Half a number in each column would be a wrong scan, not a wrong file.
 TEST_F(OddFiles, DecimalCommasAreRefused) {
   for (const char* text : {"1,5;2,5;3,5\n", "1,5 2,5 3,5\n", "1,5\t2,5\t3,5\n"})
@@ -127,6 +135,20 @@ TEST_F(OddFiles, PlyWithListsAndElementsInAnyPlace) {
   for (const char* count : {"-1", "nan", "0.5", "1e300"})
     EXPECT_THAT(error("a.ply", ply(list, std::string("1 2 3 ") + count + "\n")),
                 HasSubstr("line 9"));
+}
+
+TEST_F(OddFiles, AnImageOfPointsKeepsRowsAndColumns) {
+  const std::string header =
+      "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 3\nHEIGHT 2\nDATA ";
+  const Cloud text =
+      read("a.pcd", header + "ascii\n1 2 3\nnan nan nan\n4 5 6\n7 8 9\n1 1 1\n2 2 2\n");
+  EXPECT_EQ(text.rows, (std::vector<std::int32_t>{0, 0, 1, 1, 1}));
+  EXPECT_EQ(text.columns, (std::vector<std::int32_t>{0, 2, 0, 1, 2}));
+  const std::vector<float> values{1, 2, 3, std::nanf(""), 0, 0, 4, 5, 6, 7, 8, 9, 1, 1, 1, 2, 2, 2};
+  const Cloud binary = read(
+      "b.pcd", header + "binary\n" +
+                   std::string(reinterpret_cast<const char*>(values.data()), 4 * values.size()));
+  testing::expect_same(text, binary);
 }
 
 TEST_F(OddFiles, PosesThatAreNotFiniteAreNamed) {

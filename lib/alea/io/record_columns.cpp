@@ -178,6 +178,10 @@ void copy_records(const RecordTable& table, std::string_view bytes, Cloud& cloud
     copy_all<true>(table, bytes, cloud, at, begin, end);
   else
     copy_all<false>(table, bytes, cloud, at, begin, end);
+  for (std::size_t i = begin; table.image_columns > 0 && i < end; ++i) {
+    cloud.rows[at + i - begin] = static_cast<std::int32_t>(i / table.image_columns);
+    cloud.columns[at + i - begin] = static_cast<std::int32_t>(i % table.image_columns);
+  }
 }
 
 void append_records(CloudSink& sink, const RecordTable& table, std::string_view bytes,

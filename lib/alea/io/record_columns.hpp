@@ -40,6 +40,7 @@ struct RecordColumn {
 struct RecordTable {
   std::vector<RecordColumn> columns;
   bool big_endian = false;
+  std::size_t image_columns = 0;  ///< of points that lie row by row (PCD); 0: no image
 };
 
 /// Copies records [begin, end) of `bytes` into the cloud's arrays from index `at` on, each field to

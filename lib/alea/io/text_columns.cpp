@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <exception>
 
 #include "alea/core/error.hpp"
 #include "alea/core/parallel.hpp"
+#include "alea/io/line_parser.hpp"
 #include "alea/io/text_lines.hpp"
 
 namespace alea {
@@ -58,134 +57,6 @@ void count_lines(const TextTable& table, Chunk& chunk) {
   }
 }
 
-class LineParser {
- public:
-  LineParser(const TextTable& table, const TextPlace& place, Cloud& cloud)
-      : table_(table), place_(place), cloud_(cloud), roles_(roles_of(table.names)) {
-    for (const char c : {' ', '\t', '\r'}) blank_[static_cast<unsigned char>(c)] = true;
-  }
-
-  // Parses the line at `at`; returns where the next one starts.
-  const char* parse(const char* at, const char* end, std::size_t number, std::size_t point) const {
-    for (std::size_t c = 0; c < roles_.size(); ++c) {
-      to_column(at, end, number, c);
-      if (table_.free_text && !roles_[c]) {
-        skip_text(at, end);
-        continue;
-      }
-      const double value = next_value(at, end, number, c);
-      if (c < table_.lists.size() && table_.lists[c])
-        skip_list(value, at, end, number, c);
-      else if (roles_[c])
-        store(*roles_[c], c, value, point);
-    }
-    skip_blanks(at, end);
-    if (at != end && *at == table_.separator) skip_blanks(++at, end);
-    if (at != end && *at != '\n')
-      throw input_error(fmt::format("{}: line {}: more than the {} values expected", place_.path,
-                                    number, roles_.size()));
-    return at == end ? at : at + 1;
-  }
-
- private:
-  bool is_blank(char c) const { return blank_[static_cast<unsigned char>(c)]; }
-  bool ends_value(char c) const { return is_blank(c) || c == '\n' || c == table_.separator; }
-  void skip_blanks(const char*& at, const char* end) const {
-    while (at != end && is_blank(*at)) ++at;
-  }
-
-  // Moves to where the value of column c begins.
-  void to_column(const char*& at, const char* end, std::size_t number, std::size_t c) const {
-    skip_blanks(at, end);
-    const bool separated = at != end && table_.separator != 0 && c > 0;
-    if (separated && *at == table_.separator) {
-      skip_blanks(++at, end);
-      return;
-    }
-    if (separated && *at != '\n')
-      throw input_error(fmt::format("{}: line {}: expected '{}' before column {}", place_.path,
-                                    number, table_.separator, c + 1));
-    if (at == end || *at == '\n')
-      throw input_error(fmt::format("{}: line {}: {} values, expected {}", place_.path, number, c,
-                                    roles_.size()));
-  }
-
-  // Moves behind a value that is not wanted: a text in quotation marks, or all up to a separator.
-  void skip_text(const char*& at, const char* end) const {
-    if (at != end && *at == '"')
-      at = std::find_if(at + 1, end, [](char c) { return c == '"' || c == '\n'; });
-    const char* const from = at;
-    at = std::find_if(from, end, [&](char c) {
-      return c == '\n' || (table_.separator != 0 ? c == table_.separator : is_blank(c));
-    });
-  }
-
-  // The values behind the count of a list (PLY).
-  void skip_list(double count, const char*& at, const char* end, std::size_t number,
-                 std::size_t c) const {
-    if (!(count >= 0) || count != std::floor(count))
-      throw input_error(
-          fmt::format("{}: line {}: the count of a list is {}; expected a whole "
-                      "number (column {})",
-                      place_.path, number, count, c + 1));
-    for (double i = 0; i < count; ++i) {
-      to_column(at, end, number, c);
-      next_value(at, end, number, c);
-    }
-  }
-
-  double next_value(const char*& at, const char* end, std::size_t number, std::size_t c) const {
-    const NumberText read = read_number(at, end);
-    if (read.end == at || (read.end != end && !ends_value(*read.end))) {
-      const char* const word =
-          std::find_if(at, end, [&](char letter) { return ends_value(letter); });
-      throw input_error(fmt::format("{}: line {}: '{}' is not a number (column {})", place_.path,
-                                    number, std::string(at, word).substr(0, 40), c + 1));
-    }
-    at = read.end;
-    return read.value;
-  }
-
-  void store(FieldRole role, std::size_t c, double value, std::size_t i) const {
-    using enum FieldRole;
-    const auto axis = static_cast<int>(role);
-    if (role <= z) {
-      cloud_.positions[i][axis] = value;
-    } else if (role == intensity) {
-      cloud_.intensity[i] = static_cast<float>(value);
-    } else if (role <= blue) {
-      if (!cloud_.colours.empty()) cloud_.colours[i][axis - static_cast<int>(red)] = colour(value);
-    } else if (role == rgb) {
-      const bool as_float = c < table_.packed_float.size() && table_.packed_float[c];
-      cloud_.colours[i] = unpacked(as_float, value);
-    } else if (role <= nz) {
-      if (!cloud_.normals.empty())
-        cloud_.normals[i][axis - static_cast<int>(nx)] = static_cast<float>(value);
-    } else if (!cloud_.rows.empty()) {
-      const int index = std::abs(value) < 2e9 ? static_cast<int>(value) : -1;
-      (role == row ? cloud_.rows : cloud_.columns)[i] = index;
-    }
-  }
-
-  std::uint16_t colour(double value) const {
-    const double top = table_.float_colours ? 1 : table_.byte_colours ? 255 : 65535;
-    const double clamped = std::isfinite(value) ? std::clamp(value, 0.0, top) : 0;
-    return static_cast<std::uint16_t>(std::lround(clamped * (65535 / top)));
-  }
-
-  static Colour unpacked(bool as_float, double value) {
-    if (!std::isfinite(value) || std::abs(value) > 4294967295.0) return {};
-    return unpacked_colour(as_float ? std::bit_cast<std::uint32_t>(static_cast<float>(value))
-                                    : static_cast<std::uint32_t>(static_cast<std::int64_t>(value)));
-  }
-
-  const TextTable& table_;
-  const TextPlace& place_;
-  Cloud& cloud_;
-  std::vector<std::optional<FieldRole>> roles_;
-  std::array<bool, 256> blank_{};
-};
-
 DroppedPoints parse_chunk(const LineParser& parser, const TextTable& table, const Chunk& chunk,
                           Cloud& cloud, std::size_t at) {
   DroppedPoints dropped;
@@ -199,9 +70,14 @@ DroppedPoints parse_chunk(const LineParser& parser, const TextTable& table, cons
       continue;
     }
     from = parser.parse(from, end, number, at + point);
+    const std::size_t place = chunk.first_point + point;
+    if (table.image_columns > 0) {
+      cloud.rows[at + point] = static_cast<int>(place / table.image_columns);
+      cloud.columns[at + point] = static_cast<int>(place % table.image_columns);
+    }
     if (table.grid_rows > 0) {
-      cloud.rows[at + point] = static_cast<int>((chunk.first_point + point) % table.grid_rows);
-      cloud.columns[at + point] = static_cast<int>((chunk.first_point + point) / table.grid_rows);
+      cloud.rows[at + point] = static_cast<int>(place % table.grid_rows);
+      cloud.columns[at + point] = static_cast<int>(place / table.grid_rows);
       if (cloud.positions[at + point].isZero(0)) {
         cloud.positions[at + point].x() = std::nan("");
         ++dropped.missing;

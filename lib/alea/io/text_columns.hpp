@@ -18,10 +18,11 @@ struct TextTable {
   std::vector<bool> packed_float;  ///< a packed colour that is written as a float (PCD)
   char separator = '\0';           ///< a comma or semicolon that stands between any two values
   bool free_text = false;          ///< a column without a role may hold any text
-  std::size_t grid_rows = 0;   ///< of a PTX grid: points come column by column, 0 0 0 is no return
-  bool comments = false;       ///< lines that begin with # or // are skipped
-  bool byte_colours = false;   ///< colours are 0 to 255 and are widened (v * 257)
-  bool float_colours = false;  ///< colours are 0 to 1; neither: 0 to 65535
+  std::size_t grid_rows = 0;  ///< of a PTX grid: points come column by column, 0 0 0 is no return
+  std::size_t image_columns = 0;  ///< of points that lie row by row (PCD)
+  bool comments = false;          ///< lines that begin with # or // are skipped
+  bool byte_colours = false;      ///< colours are 0 to 255 and are widened (v * 257)
+  bool float_colours = false;     ///< colours are 0 to 1; neither: 0 to 65535
 };
 
 /// Where a table stands in its file, for messages.
