@@ -56,7 +56,7 @@ def main():
     for _ in range(options.rounds):
         for reader, name in rng.sample(jobs, len(jobs)):
             times[reader, name].append(seconds(reader, options.folder / name))
-    kept.write_text(json.dumps({" ".join(job): values for job, values in times.items()}))
+            kept.write_text(json.dumps({" ".join(job): values for job, values in times.items()}))
     server.stdin.close()
     server.wait()
     print(f"{options.points} points")

@@ -69,6 +69,24 @@ TEST_F(OddCommand, APoseThatIsNotRigidIsJoinedToNoRegistration) {
   EXPECT_FALSE(fs::exists(out_) || fs::exists(folder_.file("o.e57")));
 }
 
+TEST_F(OddCommand, AScanOfNoPointsIsGoodForInfoAndBadForRegistration) {
+  const std::string none = folder_.file("none.csv");
+  write_file_atomically(none, "x,y,z,intensity\n");
+  write_file_atomically(folder_.file("t.txt"), "1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\n");
+  EXPECT_EQ(run_alea({"info", none}).exit_code, 0);
+  EXPECT_EQ(run_alea({"convert", none, out_}).exit_code, 0);
+  EXPECT_EQ(read_cloud(out_).size(), 0u);
+  const std::vector<std::vector<std::string>> commands{
+      {"register", "die", none, none, "--edge", "0.5"},
+      {"register", "spheres", none, none, "--radius", "0.1"},
+      {"register", "markerless", none, none},
+      {"register", "checkerboards", none, none, "--side", "0.5"},
+      {"register", "network", none, none},
+      {"measure", "checkerboard", none, "--side", "0.5"},
+      {"evaluate", none, none, "--transform", folder_.file("t.txt")}};
+  for (const std::vector<std::string>& command : commands) expect_refused(command, 3, "none.csv: ");
+}
+
 TEST_F(OddCommand, NumbersOutOfRangeAndFoldersForFiles) {
   for (const char* number : {"0", "-1", "1.5", "abc", "99999999999"})
     expect_refused({"info", in_, "--decimate", number}, 2, "--decimate");
