@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "alea/core/error.hpp"
+#include "alea/io/field_role.hpp"
 #include "alea/io/text_lines.hpp"
 
 namespace alea {
@@ -19,7 +23,37 @@ Colour unpacked_value(bool as_float, double value) {
                                   : static_cast<std::uint32_t>(static_cast<std::int64_t>(value)));
 }
 
-}  // namespace
+// Calls within a shared library go through a table unless they stay in one source: this class does.
+class LineParser {
+ public:
+  LineParser(const TextTable& table, const TextPlace& place, Cloud& cloud);
+
+  // Parses the line at `at`, which has this number in the file, as this point; returns where the
+  // next line starts.
+  const char* parse(const char* at, const char* end, std::size_t number, std::size_t point) const;
+
+ private:
+  bool is_blank(char c) const { return blank_[static_cast<unsigned char>(c)]; }
+  bool is_separator(char c) const { return static_cast<unsigned char>(c) == separator_; }
+  bool ends_value(char c) const { return is_blank(c) || c == '\n' || is_separator(c); }
+  void skip_blanks(const char*& at, const char* end) const {
+    while (at != end && is_blank(*at)) ++at;
+  }
+  void to_column(const char*& at, const char* end, std::size_t number, std::size_t c) const;
+  void skip_text(const char*& at, const char* end) const;
+  void skip_list(double count, const char*& at, const char* end, std::size_t number,
+                 std::size_t c) const;
+  double next_value(const char*& at, const char* end, std::size_t number, std::size_t c) const;
+  void store(FieldRole role, std::size_t c, double value, std::size_t i) const;
+  std::uint16_t colour(double value) const;
+
+  const TextTable& table_;
+  const TextPlace& place_;
+  Cloud& cloud_;
+  std::vector<std::optional<FieldRole>> roles_;
+  std::array<bool, 256> blank_{};
+  int separator_ = -1;
+};
 
 LineParser::LineParser(const TextTable& table, const TextPlace& place, Cloud& cloud)
     : table_(table), place_(place), cloud_(cloud), roles_(roles_of(table.names)) {
@@ -127,6 +161,47 @@ const char* LineParser::parse(const char* at, const char* end, std::size_t numbe
     throw input_error(fmt::format("{}: line {}: more than the {} values expected", place_.path,
                                   number, roles_.size()));
   return at == end ? at : at + 1;
+}
+
+}  // namespace
+
+bool starts_data(const TextTable& table, std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos || text[first] == '\n') return false;
+  if (!table.comments) return true;
+  return text[first] != '#' && text.substr(first, 2) != "//";
+}
+
+DroppedPoints parse_chunk(const TextTable& table, const TextPlace& place, const TextChunk& chunk,
+                          Cloud& cloud, std::size_t at) {
+  const LineParser parser(table, place, cloud);
+  DroppedPoints dropped;
+  const char* from = chunk.text.data();
+  const char* const end = from + chunk.text.size();
+  std::size_t number = chunk.first_line;
+  for (std::size_t point = 0; point < chunk.points; ++number) {
+    const auto left = static_cast<std::size_t>(end - from);
+    if (!starts_data(table, {from, left})) {
+      from += line_at({from, left}, 0).next;
+      continue;
+    }
+    from = parser.parse(from, end, number, at + point);
+    const std::size_t index = chunk.first_point + point;
+    if (table.image_columns > 0) {
+      cloud.rows[at + point] = static_cast<int>(index / table.image_columns);
+      cloud.columns[at + point] = static_cast<int>(index % table.image_columns);
+    }
+    if (table.grid_rows > 0) {
+      cloud.rows[at + point] = static_cast<int>(index % table.grid_rows);
+      cloud.columns[at + point] = static_cast<int>(index / table.grid_rows);
+      if (cloud.positions[at + point].isZero(0)) {
+        cloud.positions[at + point].x() = std::nan("");
+        ++dropped.missing;
+      }
+    }
+    ++point;
+  }
+  return dropped;
 }
 
 }  // namespace alea

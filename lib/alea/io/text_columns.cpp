@@ -18,25 +18,9 @@ namespace {
 constexpr std::size_t chunk_bytes = std::size_t{1} << 18;
 constexpr std::size_t batch_bytes = std::size_t{1} << 26;
 
-// True where a line of data, rather than a blank one or a comment, starts at the front of `text`.
-bool starts_data(const TextTable& table, std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos || text[first] == '\n') return false;
-  if (!table.comments) return true;
-  return text[first] != '#' && text.substr(first, 2) != "//";
-}
-
-struct Chunk {
-  std::string_view text;
-  std::size_t lines = 0;
-  std::size_t points = 0;
-  std::size_t first_line = 0;
-  std::size_t first_point = 0;
-};
-
 // Cuts text at line ends into pieces of about chunk_bytes.
-std::vector<Chunk> cut(std::string_view text) {
-  std::vector<Chunk> chunks;
+std::vector<TextChunk> cut(std::string_view text) {
+  std::vector<TextChunk> chunks;
   while (!text.empty()) {
     std::size_t size = std::min(text.size(), chunk_bytes);
     if (size < text.size()) {
@@ -49,7 +33,7 @@ std::vector<Chunk> cut(std::string_view text) {
   return chunks;
 }
 
-void count_lines(const TextTable& table, Chunk& chunk) {
+void count_lines(const TextTable& table, TextChunk& chunk) {
   for (std::size_t at = 0; at < chunk.text.size();) {
     ++chunk.lines;
     if (starts_data(table, chunk.text.substr(at))) ++chunk.points;
@@ -57,47 +41,15 @@ void count_lines(const TextTable& table, Chunk& chunk) {
   }
 }
 
-DroppedPoints parse_chunk(const LineParser& parser, const TextTable& table, const Chunk& chunk,
-                          Cloud& cloud, std::size_t at) {
-  DroppedPoints dropped;
-  const char* from = chunk.text.data();
-  const char* const end = from + chunk.text.size();
-  std::size_t number = chunk.first_line;
-  for (std::size_t point = 0; point < chunk.points; ++number) {
-    const auto left = static_cast<std::size_t>(end - from);
-    if (!starts_data(table, {from, left})) {
-      from += line_at({from, left}, 0).next;
-      continue;
-    }
-    from = parser.parse(from, end, number, at + point);
-    const std::size_t place = chunk.first_point + point;
-    if (table.image_columns > 0) {
-      cloud.rows[at + point] = static_cast<int>(place / table.image_columns);
-      cloud.columns[at + point] = static_cast<int>(place % table.image_columns);
-    }
-    if (table.grid_rows > 0) {
-      cloud.rows[at + point] = static_cast<int>(place % table.grid_rows);
-      cloud.columns[at + point] = static_cast<int>(place / table.grid_rows);
-      if (cloud.positions[at + point].isZero(0)) {
-        cloud.positions[at + point].x() = std::nan("");
-        ++dropped.missing;
-      }
-    }
-    ++point;
-  }
-  return dropped;
-}
-
 // The error of the first bad line is thrown, whichever thread met one first.
-void parse_batch(const TextTable& table, const TextPlace& place, const std::vector<Chunk>& chunks,
-                 CloudSink& sink) {
+void parse_batch(const TextTable& table, const TextPlace& place,
+                 const std::vector<TextChunk>& chunks, CloudSink& sink) {
   std::vector<std::size_t> sizes;
-  for (const Chunk& chunk : chunks) sizes.push_back(chunk.points);
+  for (const TextChunk& chunk : chunks) sizes.push_back(chunk.points);
   std::vector<std::exception_ptr> errors(chunks.size());
   sink.append_pieces(sizes, [&](Cloud& cloud, std::size_t at, std::size_t piece) {
     try {
-      const LineParser parser(table, place, cloud);
-      return parse_chunk(parser, table, chunks[piece], cloud, at);
+      return parse_chunk(table, place, chunks[piece], cloud, at);
     } catch (const Error&) {
       errors[piece] = std::current_exception();
       return DroppedPoints{};
@@ -127,10 +79,10 @@ std::size_t read_text_table(const TextTable& table, std::string_view text, const
       const TextLine last = line_at(text, offset + batch.size() - 1);
       batch = text.substr(offset, last.next - offset);
     }
-    std::vector<Chunk> chunks = cut(batch);
+    std::vector<TextChunk> chunks = cut(batch);
     parallel_chunks(chunks.size(), 1,
                     [&](std::size_t c, std::size_t) { count_lines(table, chunks[c]); });
-    for (Chunk& chunk : chunks) {
+    for (TextChunk& chunk : chunks) {
       chunk.first_line = line;
       chunk.first_point = done;
       chunk.points = std::min(chunk.points, limit - done);

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "alea/io/number_text.hpp"
+
 namespace alea {
 
 /// True for what separates the values of a text table: blank, tab, comma, semicolon (and a carriage
@@ -27,14 +29,6 @@ std::size_t start_of_text(const std::string& path, std::string_view bytes);
 
 /// The values of a line, split at blanks, tabs, commas or semicolons.
 std::vector<std::string_view> split_values(std::string_view line);
-
-/// The number at the start of [at, end) (a leading + is allowed) and where it ends; `end == at`
-/// where there is none. Correctly rounded; NaN where its size is out of range.
-struct NumberText {
-  double value;
-  const char* end;
-};
-NumberText read_number(const char* at, const char* end);
 
 /// A whole word as a number (a leading + is allowed); empty where it is none.
 std::optional<double> parse_number(std::string_view word);
