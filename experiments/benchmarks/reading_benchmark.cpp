@@ -84,7 +84,8 @@ double seconds(const std::function<std::size_t(const std::string&)>& read,
 
 }  // namespace
 
-// Writes the files, says so, and then answers each line "READER PATH" with the seconds that took.
+// Writes the files (unless POINTS is 0: those of an earlier run), says so, and then answers each
+// line "READER PATH" with the seconds that took.
 int main(int argc, char** argv) {
   if (argc != 3) {
     fmt::print(stderr, "usage: benchmark_reading FOLDER POINTS, driven by reading_benchmark.py\n");
@@ -94,7 +95,7 @@ int main(int argc, char** argv) {
       {"plain", plain_read}, {"pcl", pcl_read}, {"alea", [](const std::string& path) {
                                                    return alea::read_cloud(path).size();
                                                  }}};
-  write_files(argv[1], std::stoul(argv[2]));
+  if (const std::size_t points = std::stoul(argv[2]); points > 0) write_files(argv[1], points);
   fmt::print("ready\n");
   std::fflush(stdout);
   for (std::string reader, path; std::cin >> reader >> path;) {

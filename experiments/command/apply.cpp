@@ -30,18 +30,20 @@ bool carries_pose(const std::string& path) {
   return extension == ".e57" || extension == ".ptx";
 }
 
+void check_poses(const std::string& path, const std::vector<ScanFile>& scans) {
+  for (std::size_t i = 0; i < scans.size(); ++i)
+    if (scans[i].pose && !is_rigid(*scans[i].pose))
+      throw input_error(
+          fmt::format("{}: the pose of scan {} is not rigid, so a registration cannot be joined to "
+                      "it; convert it with --apply-pose first",
+                      path, i + 1));
+}
+
 void write_with_pose(const RigidTransform& master_from_slave, std::vector<ScanFile> scans,
                      const std::string& out) {
-  for (ScanFile& scan : scans) {
-    const Eigen::Matrix4d pose = scan.pose.value_or(Eigen::Matrix4d::Identity());
-    if (!is_rigid(pose))
-      throw input_error(
-          fmt::format("scan '{}': its pose is not rigid, so a registration cannot be joined to it; "
-                      "convert it first",
-                      scan.name));
-    scan.pose = master_from_slave.matrix() * pose;
-  }
-  write_scans(out, scans);
+  for (ScanFile& scan : scans)
+    scan.pose = master_from_slave.matrix() * scan.pose.value_or(Eigen::Matrix4d::Identity());
+  write_scans(out, std::move(scans));
 }
 
 void write_moved(const RigidTransform& master_from_slave, Cloud cloud, const std::string& out) {
@@ -57,6 +59,7 @@ int run(const ApplyArguments& arguments) {
   const RigidTransform master_from_slave = read_transform(arguments.registration);
   const ReadOptions options = read_options(arguments.reading);
   std::vector<ScanFile> scans = read_scans(arguments.scan, options);
+  check_poses(arguments.scan, scans);
   if (carries_pose(arguments.out))
     write_with_pose(master_from_slave, std::move(scans), arguments.out);
   else

@@ -90,6 +90,17 @@ ProgressCallback make_progress(const CommonOptions& options) {
   };
 }
 
+std::string one_line(std::string text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    // 0xC2 0x80 to 0xC2 0x9F: the second set of control characters in UTF-8.
+    const bool second =
+        byte == 0xC2 && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0xA0;
+    if (byte < 0x20 || byte == 0x7F || second) text[i] = '?';
+  }
+  return text;
+}
+
 int report_refusal(const Refusal& refusal) {
   fmt::print(stderr, "alea: refused ({}): {}\n", to_string(refusal.code), refusal.message);
   return exit_refused;

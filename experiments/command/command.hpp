@@ -41,6 +41,10 @@ void write_json(const CommonOptions& options, const nlohmann::json& result);
 /// standard error.
 ProgressCallback make_progress(const CommonOptions& options);
 
+/// The text without control characters, each replaced by a question mark: names and values out of a
+/// file must not move a terminal's cursor or make a second line.
+std::string one_line(std::string text);
+
 /// Prints the one line that tells why a result was refused; returns exit_refused.
 int report_refusal(const Refusal& refusal);
 

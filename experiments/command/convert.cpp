@@ -25,9 +25,9 @@ int run(const Convert& convert) {
   options.accept_non_rigid_pose = true;
   thin(convert.thinning, options);
   std::vector<ScanFile> scans = read_scans(convert.in, options);
-  for (const std::string& warning : pose_warnings(scans))
-    fmt::print(stderr, "alea: warning: {}\n", warning);
+  const std::vector<std::string> warnings = pose_warnings(scans);
   write_scans(convert.out, std::move(scans), options);
+  for (const std::string& warning : warnings) fmt::print(stderr, "alea: warning: {}\n", warning);
   return exit_done;
 }
 

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "alea/cloud/spacing.hpp"
+#include "alea/core/error.hpp"
 #include "alea/core/parallel.hpp"
 #include "alea/core/version.hpp"
 #include "alea/io/cloud_file.hpp"
@@ -72,6 +74,11 @@ void print(const Info& info, const nlohmann::json& result) {
 }
 
 int run(const Info& info) {
+  std::error_code ignored;
+  if (!info.common.json.empty() &&
+      std::filesystem::equivalent(info.common.json, info.path, ignored))
+    throw usage_error(
+        fmt::format("--json: {} is the scan itself; name another file", info.common.json));
   const ThreadLimit limit(info.common.threads);
   ReadOptions options = read_options(info.reading);
   options.accept_non_rigid_pose = true;

@@ -3,9 +3,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <exception>
+#include <iostream>
+#include <new>
 
 #include "alea/core/error.hpp"
 #include "alea/core/version.hpp"
@@ -83,10 +87,19 @@ int run(int argc, char** argv) {
                          std::none_of(subcommands.begin(), subcommands.end(), is_first);
     const std::string what =
         unknown ? fmt::format("'{}' is not a subcommand", argv[1]) : error.what();
-    fmt::print(stderr, "alea: {}; --help tells more\n", what);
+    fmt::print(stderr, "alea: {}; --help tells more\n", one_line(what));
     return exit_usage;
   }
   return exit_code;
+}
+
+// What was printed and could not be written (disk full) is no result.
+void flush_output() {
+  std::cout.flush();
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout)
+    throw alea::input_error(
+        fmt::format("standard output: cannot write: {}; is the disk full or the pipe closed?",
+                    std::strerror(errno)));
 }
 
 }  // namespace
@@ -94,13 +107,22 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   install_handlers();
   try {
-    return run(argc, argv);
+    const int exit_code = run(argc, argv);
+    flush_output();
+    return exit_code;
   } catch (const alea::Error& error) {
-    fmt::print(stderr, "alea: {}\n", error.what());
+    fmt::print(stderr, "alea: {}\n", one_line(error.what()));
     return error.kind() == alea::ErrorKind::usage ? exit_usage : exit_input;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "alea: out of memory; thin large scans with `alea convert --decimate`\n");
+    return exit_internal;
   } catch (const std::exception& error) {
+    if (std::ferror(stdout) != 0) {
+      fmt::print(stderr, "alea: standard output: cannot write: {}\n", one_line(error.what()));
+      return exit_input;
+    }
     fmt::print(stderr, "alea: internal error: {}; please report it with the command line\n",
-               error.what());
+               one_line(error.what()));
     return exit_internal;
   }
 }

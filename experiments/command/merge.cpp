@@ -24,12 +24,13 @@ int run(const Merge& merge) {
   const ReadOptions options = read_options(merge.reading);
   std::vector<ScanFile> scans;
   for (const std::string& path : merge.in) {
-    for (ScanFile& scan : read_scans(path, options)) {
-      if (scan.pose && !is_rigid(*scan.pose))
-        throw input_error(fmt::format(
-            "{}: scan '{}' has a pose that is not rigid; convert it with --apply-pose first", path,
-            scan.name));
-      scans.push_back(std::move(scan));
+    std::vector<ScanFile> of_file = read_scans(path, options);
+    for (std::size_t i = 0; i < of_file.size(); ++i) {
+      if (of_file[i].pose && !is_rigid(*of_file[i].pose))
+        throw input_error(
+            fmt::format("{}: the pose of scan {} is not rigid; convert it with --apply-pose first",
+                        path, i + 1));
+      scans.push_back(std::move(of_file[i]));
     }
   }
   write_scans(merge.out, std::move(scans), options);

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <sstream>
 
 #include "alea/core/error.hpp"
+#include "alea/io/field_role.hpp"
 #include "alea/io/text_lines.hpp"
 
 namespace alea::command {
@@ -22,6 +24,20 @@ std::vector<std::string> split_names(const std::string& list) {
     names.push_back(name);
   }
   return names;
+}
+
+void check_columns(const std::vector<std::string>& columns) {
+  if (columns.empty()) return;
+  if (!channels_of(columns).positions)
+    throw usage_error(fmt::format("--columns: no x, y and z among {}; write e.g. x,y,z,intensity",
+                                  fmt::join(columns, ",")));
+  const std::vector<std::optional<FieldRole>> roles = roles_of(columns);
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (!roles[i] && role_of(columns[i]))
+      throw usage_error(
+          fmt::format("--columns: '{}' has been named before; call a column 'skip' "
+                      "to leave it out",
+                      columns[i]));
 }
 
 }  // namespace
@@ -41,7 +57,7 @@ void add_reading_options(CLI::App& app, ReadingOptions& options) {
 void add_thinning_options(CLI::App& app, ThinningOptions& options) {
   app.add_option("--decimate", options.decimate,
                  "Keep every N-th of the valid points inside the crop")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1U, std::numeric_limits<std::uint32_t>::max()))
       ->capture_default_str();
   app.add_option("--crop", options.crop,
                  "Keep the points inside this box (m, the scan's own frame): "
@@ -69,6 +85,7 @@ ReadOptions read_options(const ReadingOptions& options) {
   ReadOptions out;
   out.unit_m = options.unit == "mm" ? 0.001 : options.unit == "ft" ? 0.3048 : 1;
   out.columns = split_names(options.columns);
+  check_columns(out.columns);
   out.apply_pose = options.apply_pose;
   return out;
 }

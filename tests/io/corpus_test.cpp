@@ -176,6 +176,22 @@ TEST_F(Corpus, TheProgramNeedsLittleMemoryForAnyFile) {
 }
 #endif
 
+TEST_F(Corpus, AFileWithoutPointsIsNotRegistered) {
+  std::size_t checked = 0;
+  for (const Expectation& expected : expectations()) {
+    const bool none = std::all_of(expected.points.begin(), expected.points.end(),
+                                  [](std::size_t points) { return points == 0; });
+    if (expected.exit_code != 0 || !none) continue;
+    const std::string path = root_ + expected.file;
+    const testing::ProgramRun run = testing::run_alea({"register", "markerless", path, path});
+    EXPECT_EQ(run.exit_code, 3) << expected.file;
+    EXPECT_THAT(run.err, ::testing::HasSubstr(expected.file));
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    ++checked;
+  }
+  EXPECT_GE(checked, 10u);
+}
+
 // What the other formats keep of a cloud: PTX has no normals and colours of 8 bits.
 Cloud reduced(Cloud cloud, const std::string& format) {
   cloud.dropped = {};

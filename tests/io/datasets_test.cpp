@@ -43,6 +43,22 @@ TEST(Datasets, FilesAreDownloadedAndOneWithAWrongSumIsNotKept) {
               HasSubstr("b b.xyz: missing"));
 }
 
+TEST(Datasets, WithoutANetworkOneLineNamesTheHost) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.file("manifest.toml"))
+      << "[[dataset]]\nname = \"far\"\norigin = \"http://127.0.0.1:1/origin\"\ncommit = \"v1\"\n"
+      << "folder = \"\"\nlicence = \"CC0-1.0\"\nfiles = [\n{name = \"a.xyz\", sha256 = \"0\"},\n"
+      << "{name = \"b.xyz\", sha256 = \"0\"},\n]\n";
+  const testing::ShellRun run =
+      run_shell("http_proxy= " + get_datasets + " --manifest '" + folder.file("manifest.toml") +
+                "' '" + folder.file("data") + "'");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.output, HasSubstr("127.0.0.1:1: "));
+  EXPECT_THAT(run.output, HasSubstr("is there a network?"));
+  EXPECT_THAT(run.output, HasSubstr("2 are missing or wrong"));
+  EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 2) << run.output;
+}
+
 TEST(Datasets, WhatIsThereIsWhatTheManifestSays) {
   const char* datasets = std::getenv("ALEA_DATASETS");
   if (datasets == nullptr) GTEST_SKIP() << "set ALEA_DATASETS to a folder of scripts/get-datasets";

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cstring>
+#include <functional>
 
 #include "alea/io/atomic_file.hpp"
 #include "alea/io/e57_page_writer.hpp"
@@ -149,25 +150,73 @@ TEST(E57, IntegersOfEveryWidthAcrossPackets) {
   }
 }
 
+// The same file with another XML part.
+std::string with_xml(const std::string& path, const std::function<void(std::string&)>& change) {
+  std::string logical;
+  const std::string file = testing::read_text(path);
+  for (std::size_t at = 0; at < file.size(); at += 1024) logical += file.substr(at, 1020);
+  const std::size_t xml = logical.find("<e57Root");
+  const std::size_t end = logical.find("</e57Root>") + 10;
+  std::string text = logical.substr(xml, end - xml);
+  change(text);
+  AtomicFile out(path + ".changed.e57");
+  E57PageWriter pages(out);
+  pages.write(logical.substr(48, xml - 48));
+  pages.finish(text);
+  out.commit();
+  return path + ".changed.e57";
+}
+
+void insert_before(std::string& text, const std::string& mark, const std::string& what) {
+  text.insert(text.find(mark), what);
+}
+
 TEST(E57, DeclaredRecordsThatAreNotThereAreAnError) {
   const TemporaryFolder folder;
   const std::string path = integer_file({250, 2, {1, 2, 3}}, 8, folder.path().string());
   EXPECT_EQ(read_cloud(path).size(), 3u);
-  std::string logical;
-  const std::string file = testing::read_text(path);
-  for (std::size_t at = 0; at < file.size(); at += 1024) logical += file.substr(at, 1020);
-  const std::string count = "recordCount=\"3\"";
-  AtomicFile out(folder.file("c.e57"));
-  E57PageWriter pages(out);
-  const std::size_t xml = logical.find("<e57Root");
-  const std::size_t end = logical.find("</e57Root>") + 10;
-  std::string text = logical.substr(xml, end - xml);
-  text.replace(text.find(count), count.size(), "recordCount=\"4000\"");
-  pages.write(logical.substr(48, xml - 48));
-  pages.finish(text);
-  out.commit();
-  EXPECT_THAT(error_of(folder.file("c.e57")),
-              HasSubstr("4000 records declared, its packets hold 3"));
+  const std::string more = with_xml(path, [](std::string& xml) {
+    const std::string count = "recordCount=\"3\"";
+    xml.replace(xml.find(count), count.size(), "recordCount=\"4000\"");
+  });
+  EXPECT_THAT(error_of(more), HasSubstr("4000 records declared, its packets hold 3"));
+}
+
+// Thousands of scans of one section would be read thousands of times.
+TEST(E57, ASectionBelongsToOneScan) {
+  const TemporaryFolder folder;
+  const IntegerFile in{250, 2, std::vector<std::uint64_t>(1000, 1)};
+  const std::string path = integer_file(in, 8, folder.path().string());
+  const std::string shared = with_xml(path, [](std::string& xml) {
+    const std::size_t begin = xml.find("<vectorChild>"), end = xml.find("</data3D>");
+    const std::string scan = xml.substr(begin, end - begin);
+    for (int i = 0; i < 20; ++i) insert_before(xml, "</data3D>", scan);
+  });
+  EXPECT_THAT(error_of(shared), HasSubstr("is one of an earlier scan too"));
+}
+
+TEST(E57, APoseThatIsNotFiniteIsNamed) {
+  const TemporaryFolder folder;
+  const std::string path = integer_file({250, 2, {1, 2, 3}}, 8, folder.path().string());
+  const std::string bad = with_xml(path, [](std::string& xml) {
+    insert_before(xml, "<points", "<pose><translation><x>nan</x></translation></pose>");
+  });
+  EXPECT_THAT(error_of(bad), HasSubstr("scan 1: pose: expected finite numbers"));
+}
+
+// The tree would take 25 times the memory of the text.
+TEST(E57, MoreElementsThanMemoryIsMeantForAreRefused) {
+  const TemporaryFolder folder;
+  const std::string path = integer_file({250, 2, {1, 2, 3}}, 8, folder.path().string());
+  const auto with_elements = [&](int count) {
+    return with_xml(path, [&](std::string& xml) {
+      std::string elements;
+      for (int i = 0; i < count; ++i) elements += "b<a/>";
+      insert_before(xml, "</e57Root>", elements);
+    });
+  };
+  EXPECT_EQ(error_of(with_elements(10000)), "no error");
+  EXPECT_THAT(error_of(with_elements(100000)), HasSubstr("elements and"));
 }
 
 }  // namespace

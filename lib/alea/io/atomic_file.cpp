@@ -49,12 +49,40 @@ std::atomic<unsigned> temporary_number{0};
 }  // namespace
 
 AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path_, ignored))
+  struct stat old {};
+  const bool exists = ::stat(path_.c_str(), &old) == 0;
+  if (exists && S_ISDIR(old.st_mode))
     throw input_error(
         fmt::format("{}: cannot write: it is a directory; name a file", path_.string()));
+  if (exists && ::access(path_.c_str(), W_OK) != 0) fail_to_open(errno);
+  if (exists && !S_ISREG(old.st_mode)) {
+    open_directly();
+    return;
+  }
+  open_beside();
+  // A file that only its owner may read stays one.
+  if (exists) ::fchmod(::fileno(file_), old.st_mode & 07777);
+}
+
+void AtomicFile::fail_to_open(int cause) const {
+  throw input_error(
+      fmt::format("{}: cannot write: {}; choose a folder that exists and can be written",
+                  path_.string(), std::generic_category().message(cause)));
+}
+
+// A device or a pipe (/dev/stdout, /dev/null) stays what it is: it is written, not replaced.
+void AtomicFile::open_directly() {
+  file_ = std::fopen(path_.c_str(), "wbe");
+  if (file_ == nullptr) fail_to_open(errno);
+}
+
+void AtomicFile::open_beside() {
+  // The file that a symbolic link names is replaced, not the link.
+  std::error_code ignored;
+  const std::filesystem::path target = std::filesystem::canonical(path_, ignored);
+  target_ = target.empty() ? path_ : target;
   const unsigned number = temporary_number++;
-  temporary_ = path_;
+  temporary_ = target_;
   temporary_ += fmt::format(".part-{}-{}", ::getpid(), number);
   slot_ = take_slot(temporary_.string());
   const int descriptor = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -62,9 +90,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path) {
     const int cause = errno;
     release_slot(slot_);
     slot_ = -1;
-    throw input_error(
-        fmt::format("{}: cannot write: {}; choose a folder that exists and can be written",
-                    path_.string(), std::generic_category().message(cause)));
+    fail_to_open(cause);
   }
   file_ = ::fdopen(descriptor, "wb");
   std::setvbuf(file_, nullptr, _IOFBF, 1 << 20);
@@ -73,7 +99,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path) {
 AtomicFile::~AtomicFile() {
   if (file_ == nullptr) return;
   std::fclose(file_);
-  ::unlink(temporary_.c_str());
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
   release_slot(slot_);
 }
 
@@ -94,12 +120,13 @@ void AtomicFile::write_at(std::uint64_t offset, std::string_view bytes) {
 }
 
 void AtomicFile::commit() {
-  if (std::fflush(file_) != 0 || ::fsync(::fileno(file_)) != 0) fail("write");
+  const bool direct = temporary_.empty();
+  if (std::fflush(file_) != 0 || (!direct && ::fsync(::fileno(file_)) != 0)) fail("write");
   const int closed = std::fclose(file_);
   file_ = nullptr;
-  if (closed != 0 || ::rename(temporary_.c_str(), path_.c_str()) != 0) {
+  if (closed != 0 || (!direct && ::rename(temporary_.c_str(), target_.c_str()) != 0)) {
     const int cause = errno;
-    ::unlink(temporary_.c_str());
+    if (!direct) ::unlink(temporary_.c_str());
     release_slot(slot_);
     errno = cause;
     fail("finish");

@@ -7,10 +7,11 @@
 namespace alea {
 
 /// A file that appears whole or not at all: written beside its final path, renamed by commit(),
-/// removed if the object dies before that or the process is interrupted.
+/// removed if the object dies before that or the process is interrupted. A file that is replaced
+/// keeps its permissions; a symbolic link stays one. A device or a pipe is written directly.
 class AtomicFile {
  public:
-  /// Throws Error(input) with path and cause where the folder cannot be written.
+  /// Throws Error(input) with path and cause where the folder or the old file cannot be written.
   explicit AtomicFile(const std::filesystem::path& path);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
@@ -25,9 +26,13 @@ class AtomicFile {
 
  private:
   [[noreturn]] void fail(const char* action) const;
+  [[noreturn]] void fail_to_open(int cause) const;
+  void open_directly();
+  void open_beside();
 
-  std::filesystem::path path_;
-  std::filesystem::path temporary_;
+  std::filesystem::path path_;       ///< as the caller named it
+  std::filesystem::path target_;     ///< that is replaced
+  std::filesystem::path temporary_;  ///< empty for a device or a pipe
   std::FILE* file_ = nullptr;
   int slot_ = -1;
 };

@@ -26,8 +26,10 @@ Source parse_source(const std::string& path) {
   Source source{path.substr(0, mark)};
   const char* const end = path.data() + path.size();
   const auto [next, error] = std::from_chars(path.data() + mark + 1, end, source.scan);
-  if (error != std::errc{} || next != end || source.scan == 0) return {path};
-  return source;
+  if (error == std::errc{} && next == end && source.scan != 0) return source;
+  if (!std::filesystem::exists(source.path, ignored)) return {path};
+  throw input_error(fmt::format("{}: '{}' is not the number of a scan; expected #1, #2, ...",
+                                source.path, path.substr(mark)));
 }
 
 std::string extension_of(const std::string& path) {

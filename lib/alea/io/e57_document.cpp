@@ -27,9 +27,10 @@ class Reader {
   explicit Reader(const E57Pages& pages) : pages_(pages) {
     if (pages.xml_length() > e57_xml_limit)
       fail(fmt::format("{} bytes; the limit is {}", pages.xml_length(), e57_xml_limit));
-    const std::string text = pages.read(pages.logical(pages.xml_offset(), "the XML part"),
-                                        pages.xml_length(), "the XML part");
-    const pugi::xml_parse_result result = document_.load_buffer(text.data(), text.size());
+    text_ = pages.read(pages.logical(pages.xml_offset(), "the XML part"), pages.xml_length(),
+                       "the XML part");
+    check_markup();
+    const pugi::xml_parse_result result = document_.load_buffer_inplace(text_.data(), text_.size());
     if (!result)
       fail(fmt::format("byte {} of it: {}; expected well-formed XML", result.offset,
                        result.description()));
@@ -47,6 +48,21 @@ class Reader {
  private:
   [[noreturn]] void fail(const std::string& what) const {
     throw input_error(fmt::format("{}: XML part: {}", pages_.path(), what));
+  }
+
+  // Held before the tree takes its memory. 300 bytes: the nodes of an element and of its text, and
+  // what a field of a prototype takes beside them; 40: an attribute.
+  void check_markup() const {
+    std::uint64_t elements = 0, attributes = 0;
+    for (std::size_t i = 0; i + 1 < text_.size(); ++i) {
+      elements += text_[i] == '<' && text_[i + 1] != '/' ? 1 : 0;
+      attributes += text_[i] == '=' ? 1 : 0;
+    }
+    if (300 * elements + 40 * attributes > e57_markup_limit + 2 * pages_.logical_size())
+      fail(
+          fmt::format("{} elements and {} attributes; expected as many as fit into {} MB and twice "
+                      "the file's size, at 300 and 40 bytes each",
+                      elements, attributes, e57_markup_limit >> 20));
   }
 
   double number(std::string_view text, const std::string& where, double missing) const {
@@ -111,6 +127,7 @@ class Reader {
     out.topLeftCorner<3, 3>() = scale * q.normalized().toRotationMatrix();
     out.topRightCorner<3, 1>() << value("translation", "x", 0), value("translation", "y", 0),
         value("translation", "z", 0);
+    if (!out.allFinite()) fail(where + ": pose: expected finite numbers");
     return out;
   }
 
@@ -152,6 +169,7 @@ class Reader {
   }
 
   const E57Pages& pages_;
+  std::string text_;  // holds what the document points to
   pugi::xml_document document_;
 };
 

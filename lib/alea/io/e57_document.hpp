@@ -43,7 +43,9 @@ struct E57Scan {
 /// wrong.
 std::vector<E57Scan> parse_e57_document(const E57Pages& pages);
 
-/// Longest XML part that is read: the tree takes up to about 15 times as much memory.
+/// Longest XML part that is read.
 inline constexpr std::uint64_t e57_xml_limit = 16 << 20;
+/// Memory for the tree of the XML part, beside twice the file's size.
+inline constexpr std::uint64_t e57_markup_limit = 24 << 20;
 
 }  // namespace alea

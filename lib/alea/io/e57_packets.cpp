@@ -30,9 +30,16 @@ E57Packets::E57Packets(const E57Pages& pages, const E57Scan& scan, std::vector<b
         fmt::format("{}: byte {}: a section of {} bytes; it runs past the end of the "
                     "file",
                     pages.path(), scan.section_offset + 8, length));
+  section_bytes_ = length;
   end_ = begin + length;
   at_ = end_;
-  if (scan.records > 0) at_ = pages.logical(load_le<std::uint64_t>(header, 16), "data packets");
+  if (scan.records == 0) return;
+  const auto first_packet = load_le<std::uint64_t>(header, 16);
+  at_ = pages.logical(first_packet, "data packets");
+  if (at_ < begin + 32 || at_ > end_)
+    throw input_error(
+        fmt::format("{}: byte {}: data packets at byte {}; expected them inside their section",
+                    pages.path(), scan.section_offset + 16, first_packet));
 }
 
 std::uint64_t E57Packets::available(std::uint64_t records) const {

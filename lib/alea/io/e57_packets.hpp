@@ -15,6 +15,8 @@ class E57Packets {
   /// Reads the section's header. Throws Error(input).
   E57Packets(const E57Pages& pages, const E57Scan& scan, std::vector<bool> wanted);
 
+  /// Bytes of the section, its header included.
+  std::uint64_t section_bytes() const { return section_bytes_; }
   /// Reads packets until every wanted stream holds `records` whole values more, or the section
   /// ends. Returns how many records are there, at most `records`.
   std::uint64_t fill(std::uint64_t records);
@@ -40,6 +42,7 @@ class E57Packets {
   std::vector<Stream> streams_;
   std::uint64_t at_ = 0;   ///< logical offset of the next packet
   std::uint64_t end_ = 0;  ///< logical end of the section
+  std::uint64_t section_bytes_ = 0;
 };
 
 }  // namespace alea

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
 #include <optional>
 
 #include "alea/core/error.hpp"
@@ -138,6 +139,7 @@ class PcdParser {
     if (width_ && height_) {
       if (*height_ != 0 && *width_ > SIZE_MAX / *height_) fail("WIDTH times HEIGHT is too large");
       header_.points = *width_ * *height_;
+      if (*height_ > 1 && header_.points <= INT32_MAX) header_.image_columns = *width_;
       if (points_ && *points_ != header_.points)
         fail(fmt::format("POINTS {} but WIDTH times HEIGHT is {}", *points_, header_.points));
     } else {

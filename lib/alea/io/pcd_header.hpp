@@ -22,6 +22,7 @@ struct PcdHeader {
   PcdEncoding encoding = PcdEncoding::ascii;
   std::vector<PcdField> fields;
   std::size_t points = 0;
+  std::size_t image_columns = 0;  ///< WIDTH where the points are an image (HEIGHT above 1)
   Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();
   std::size_t body_offset = 0;
   std::size_t body_line = 1;

@@ -140,7 +140,7 @@ class Filler {
   const Layout& layout_;
 };
 
-// Records of no bits at all could be declared without end, and many scans could share one section.
+// Records of no bits at all could be declared without end.
 void check_counts(const E57Pages& pages, const std::vector<E57Scan>& scans) {
   check_scan_count(pages.path(), scans.size());
   std::uint64_t left = (pages.logical_size() + (1 << 17)) * 8;
@@ -153,7 +153,10 @@ void check_counts(const E57Pages& pages, const std::vector<E57Scan>& scans) {
   }
 }
 
-ScanFile read_scan(const E57Pages& pages, const E57Scan& scan, const ReadOptions& options) {
+// `section_bytes` are those of the scans before: thousands of scans that share one section would be
+// read without end.
+ScanFile read_scan(const E57Pages& pages, const E57Scan& scan, const ReadOptions& options,
+                   std::uint64_t& section_bytes) {
   const Layout layout = layout_of(pages.path(), scan);
   ScanFile out;
   out.name = scan.name;
@@ -161,6 +164,12 @@ ScanFile read_scan(const E57Pages& pages, const E57Scan& scan, const ReadOptions
   if (out.pose) out.pose->topRightCorner<3, 1>() *= options.unit_m;
   for (const E57Field& field : scan.fields) out.fields.push_back(field.name);
   E57Packets packets(pages, scan, layout.wanted(scan.fields.size()));
+  section_bytes += packets.section_bytes();
+  if (section_bytes > pages.logical_size())
+    throw input_error(
+        fmt::format("{}: byte {}: the section of scan {} is one of an earlier scan too; expected a "
+                    "section for each",
+                    pages.path(), scan.section_offset, scan.number));
   CloudSink sink(layout.channels(), options);
   for (std::uint64_t done = 0; done < scan.records;) {
     const std::uint64_t want = std::min<std::uint64_t>(batch_points, scan.records - done);
@@ -185,7 +194,9 @@ std::vector<ScanFile> read_e57(const InputFile& file, const ReadOptions& options
   std::vector<ScanFile> scans;
   const std::vector<E57Scan> declared = parse_e57_document(pages);
   check_counts(pages, declared);
-  for (const E57Scan& scan : declared) scans.push_back(read_scan(pages, scan, options));
+  std::uint64_t section_bytes = 0;
+  for (const E57Scan& scan : declared)
+    scans.push_back(read_scan(pages, scan, options, section_bytes));
   return scans;
 }
 

@@ -93,8 +93,14 @@ LasHeader parse_header(const InputFile& file) {
     header.scale[axis] = load_le<double>(bytes, 131 + 8 * static_cast<std::size_t>(axis));
     header.offset[axis] = load_le<double>(bytes, 155 + 8 * static_cast<std::size_t>(axis));
   }
-  if (!header.scale.allFinite() || !header.offset.allFinite())
-    fail(file, 131, "scale or offset is not finite");
+  if (!header.scale.allFinite() || (header.scale.array() == 0).any())
+    fail(file, 131,
+         fmt::format("scale factors {} {} {}; expected finite numbers other than 0",
+                     header.scale.x(), header.scale.y(), header.scale.z()));
+  if (!header.offset.allFinite())
+    fail(file, 155,
+         fmt::format("offsets {} {} {}; expected finite numbers", header.offset.x(),
+                     header.offset.y(), header.offset.z()));
   return header;
 }
 
@@ -120,16 +126,17 @@ std::vector<std::string> fields_of(std::size_t format) {
 
 RecordTable table_of(const LasHeader& header) {
   const std::size_t size = header.record_size;
+  using enum FieldRole;
   RecordTable table;
-  table.columns = {{"x", ScalarType::int32, 0, size},
-                   {"y", ScalarType::int32, 4, size},
-                   {"z", ScalarType::int32, 8, size},
-                   {"intensity", ScalarType::uint16, 12, size}};
+  table.columns = {{x, ScalarType::int32, 0, size},
+                   {y, ScalarType::int32, 4, size},
+                   {z, ScalarType::int32, 8, size},
+                   {intensity, ScalarType::uint16, 12, size}};
   const std::size_t colour = colour_offsets[header.format];
   if (colour != 0) {
-    table.columns.push_back({"red", ScalarType::uint16, colour, size});
-    table.columns.push_back({"green", ScalarType::uint16, colour + 2, size});
-    table.columns.push_back({"blue", ScalarType::uint16, colour + 4, size});
+    table.columns.push_back({red, ScalarType::uint16, colour, size});
+    table.columns.push_back({green, ScalarType::uint16, colour + 2, size});
+    table.columns.push_back({blue, ScalarType::uint16, colour + 4, size});
   }
   return table;
 }

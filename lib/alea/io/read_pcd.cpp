@@ -25,8 +25,20 @@ std::vector<std::string> role_names(const PcdHeader& header) {
   return names;
 }
 
+// The place in an image counts where no fields of the file say another.
+bool is_image(const PcdHeader& header) {
+  return header.image_columns > 0 && !channels_of(role_names(header)).grid;
+}
+
+Channels channels_of_points(const PcdHeader& header) {
+  Channels channels = channels_of(role_names(header));
+  channels.grid |= is_image(header);
+  return channels;
+}
+
 Cloud read_ascii(const InputFile& file, const PcdHeader& header, const ReadOptions& options) {
   TextTable table;
+  if (is_image(header)) table.image_columns = header.image_columns;
   for (const PcdField& field : header.fields) {
     for (std::size_t i = 0; i < field.count; ++i) {
       table.names.push_back(role_name(field));
@@ -34,7 +46,7 @@ Cloud read_ascii(const InputFile& file, const PcdHeader& header, const ReadOptio
     }
     if (role_of(field.name) == FieldRole::red) table.byte_colours = size_of(field.type) == 1;
   }
-  CloudSink sink(channels_of(table.names), options);
+  CloudSink sink(channels_of_points(header), options);
   const std::size_t found =
       read_text_table(table, file.bytes().substr(header.body_offset),
                       {file.path(), header.body_line}, header.points, sink,
@@ -48,11 +60,14 @@ Cloud read_ascii(const InputFile& file, const PcdHeader& header, const ReadOptio
 // `planar`: one field after the other, as binary_compressed has them, rather than point by point.
 RecordTable table_of(const PcdHeader& header, bool planar) {
   RecordTable table;
+  if (is_image(header)) table.image_columns = header.image_columns;
+  const std::vector<std::optional<FieldRole>> roles = roles_of(role_names(header));
+  const std::size_t record_size = header.record_size();
   std::size_t offset = 0;
   for (const PcdField& field : header.fields) {
     const std::size_t size = size_of(field.type) * field.count;
     table.columns.push_back(
-        {role_name(field), field.type, offset, planar ? size : header.record_size()});
+        {roles[table.columns.size()], field.type, offset, planar ? size : record_size});
     offset += planar ? size * header.points : size;
   }
   return table;
@@ -61,7 +76,7 @@ RecordTable table_of(const PcdHeader& header, bool planar) {
 Cloud read_records(const PcdHeader& header, std::string_view records, bool planar,
                    const ReadOptions& options, const InputFile* release) {
   const RecordTable table = table_of(header, planar);
-  CloudSink sink(channels_of(role_names(header)), options);
+  CloudSink sink(channels_of_points(header), options);
   append_records(sink, table, records, header.points, [&](std::size_t done) {
     if (release != nullptr)
       release->release_before(header.body_offset + done * header.record_size());
@@ -113,6 +128,7 @@ ScanFile read_pcd(const InputFile& file, const ReadOptions& options) {
   if (!channels_of(role_names(header)).positions)
     throw input_error(
         fmt::format("{}: no fields x, y and z; a scan needs coordinates", file.path()));
+  check_names(file.path(), role_names(header));
   switch (header.encoding) {
     case PcdEncoding::ascii:
       scan.cloud = read_ascii(file, header, options);

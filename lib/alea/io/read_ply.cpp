@@ -21,9 +21,11 @@ namespace {
                   file.path(), element.name, element.count, found));
 }
 
-std::vector<std::string> names_of(const PlyElement& element) {
+// A property counts for the cloud where it holds one value a point.
+std::vector<std::string> role_names(const PlyElement& element) {
   std::vector<std::string> names;
-  for (const PlyProperty& property : element.properties) names.push_back(property.name);
+  for (const PlyProperty& property : element.properties)
+    names.push_back(property.count_type ? std::string() : property.name);
   return names;
 }
 
@@ -73,10 +75,13 @@ std::size_t skip_binary(const InputFile& file, const PlyElement& element, bool b
 Cloud read_binary(const InputFile& file, const PlyElement& vertex, bool big_endian,
                   std::size_t offset, const ReadOptions& options) {
   RecordTable table{{}, big_endian};
+  const std::vector<std::optional<FieldRole>> roles = roles_of(role_names(vertex));
+  const std::size_t record_size = vertex.record_size();
   std::size_t field = 0;
-  for (const PlyProperty& property : vertex.properties) {
+  for (std::size_t i = 0; i < roles.size(); ++i) {
+    const PlyProperty& property = vertex.properties[i];
     if (property.count_type) continue;
-    table.columns.push_back({property.name, property.type, field, vertex.record_size()});
+    table.columns.push_back({roles[i], property.type, field, record_size});
     field += size_of(property.type);
   }
   std::string packed;
@@ -85,9 +90,9 @@ Cloud read_binary(const InputFile& file, const PlyElement& vertex, bool big_endi
                               : skip_binary(file, vertex, big_endian, offset);
   const std::string_view records =
       vertex.has_list() ? std::string_view(packed) : file.bytes().substr(offset, end - offset);
-  CloudSink sink(channels_of(names_of(vertex)), options);
+  CloudSink sink(channels_of(role_names(vertex)), options);
   append_records(sink, table, records, vertex.count, [&](std::size_t done) {
-    if (!vertex.has_list()) file.release_before(offset + done * vertex.record_size());
+    if (!vertex.has_list()) file.release_before(offset + done * record_size);
   });
   return sink.take();
 }
@@ -108,11 +113,11 @@ std::size_t skip_lines(const InputFile& file, const PlyElement& element, std::si
 Cloud read_ascii(const InputFile& file, const PlyElement& vertex, std::size_t offset,
                  std::size_t line, const ReadOptions& options) {
   TextTable table;
+  table.names = role_names(vertex);
   for (const PlyProperty& property : vertex.properties) {
     const bool is_float =
         property.type == ScalarType::float32 || property.type == ScalarType::float64;
     const std::optional<FieldRole> role = role_of(property.name);
-    table.names.push_back(property.name);
     table.lists.push_back(property.count_type.has_value());
     table.packed_float.push_back(is_float);
     if (role == FieldRole::red) table.float_colours = is_float;
@@ -125,6 +130,16 @@ Cloud read_ascii(const InputFile& file, const PlyElement& vertex, std::size_t of
                       [&](std::size_t done) { file.release_before(offset + done); });
   if (found < vertex.count) fail_short(file, vertex, found);
   return sink.take();
+}
+
+void check_vertex(const InputFile& file, const PlyHeader& header, const PlyElement& vertex) {
+  if (!channels_of(role_names(vertex)).positions)
+    throw input_error(fmt::format(
+        "{}: element vertex has no properties x, y and z; a scan needs coordinates", file.path()));
+  check_names(file.path() + ": element vertex", role_names(vertex));
+  const auto is_vertex = [](const PlyElement& element) { return element.name == "vertex"; };
+  if (std::count_if(header.elements.begin(), header.elements.end(), is_vertex) > 1)
+    throw input_error(fmt::format("{}: two elements are called vertex; expected one", file.path()));
 }
 
 }  // namespace
@@ -142,11 +157,8 @@ ScanFile read_ply(const InputFile& file, const ReadOptions& options) {
       continue;
     }
     ScanFile scan;
-    scan.fields = names_of(element);
-    if (!channels_of(scan.fields).positions)
-      throw input_error(
-          fmt::format("{}: element vertex has no properties x, y and z; a scan needs coordinates",
-                      file.path()));
+    for (const PlyProperty& property : element.properties) scan.fields.push_back(property.name);
+    check_vertex(file, header, element);
     scan.cloud = header.encoding == PlyEncoding::ascii
                      ? read_ascii(file, element, offset, line, options)
                      : read_binary(file, element, big_endian, offset, options);

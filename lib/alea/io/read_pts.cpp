@@ -31,7 +31,9 @@ std::vector<std::string> names_for(std::size_t values, const std::string& place)
 // Walks over a text line by line, blank lines left out.
 class Cursor {
  public:
-  Cursor(const InputFile& file) : file_(file) { skip_blank(); }
+  Cursor(const InputFile& file) : file_(file), offset_(start_of_text(file.path(), file.bytes())) {
+    skip_blank();
+  }
 
   bool at_end() const { return offset_ >= file_.bytes().size(); }
   std::string place() const { return fmt::format("{}: line {}", file_.path(), line_); }
@@ -123,11 +125,14 @@ class Cursor {
 // The frame of one PTX scan: rows of numbers for row vectors, so the pose is the transpose.
 Eigen::Matrix4d read_pose(Cursor& cursor, double unit_m) {
   for (int i = 0; i < 4; ++i) cursor.numbers(3);  // scanner and its axes: the matrix repeats them
+  const std::string where = cursor.place();
   Eigen::Matrix4d pose;
   for (int i = 0; i < 4; ++i) {
     const std::vector<double> row = cursor.numbers(4);
     for (int j = 0; j < 4; ++j) pose(j, i) = row[static_cast<std::size_t>(j)];
   }
+  if (!pose.allFinite())
+    throw input_error(where + ": a pose that is not finite; expected four lines of four numbers");
   pose.topRightCorner<3, 1>() *= unit_m;
   return pose;
 }

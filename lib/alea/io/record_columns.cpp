@@ -7,7 +7,6 @@
 #include <type_traits>
 
 #include "alea/io/byte_order.hpp"
-#include "alea/io/field_role.hpp"
 
 namespace alea {
 namespace {
@@ -146,8 +145,8 @@ namespace {
 bool starts_with_positions(const std::vector<RecordColumn>& columns) {
   if (columns.size() < 3) return false;
   for (std::size_t k = 0; k < 3; ++k)
-    if (role_of(columns[k].name) != static_cast<FieldRole>(k) ||
-        columns[k].type != columns[0].type || columns[k].stride != columns[0].stride ||
+    if (columns[k].role != static_cast<FieldRole>(k) || columns[k].type != columns[0].type ||
+        columns[k].stride != columns[0].stride ||
         columns[k].offset != columns[0].offset + k * size_of(columns[0].type))
       return false;
   return true;
@@ -159,15 +158,14 @@ void copy_all(const RecordTable& table, std::string_view bytes, Cloud& cloud, st
   const bool together = starts_with_positions(table.columns);
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     const RecordColumn& field = table.columns[c];
-    const std::optional<FieldRole> role = role_of(field.name);
-    if (!role || (together && (c == 1 || c == 2))) continue;
+    if (!field.role || (together && (c == 1 || c == 2))) continue;
     const Range range{bytes.data() + field.offset + begin * field.stride, field.stride, at,
                       end - begin};
     with_type(field.type, [&]<typename T>() {
       if (together && c == 0)
         copy_positions<T, swapped>(range, cloud);
       else
-        copy_column<T, swapped>(*role, range, cloud);
+        copy_column<T, swapped>(*field.role, range, cloud);
     });
   }
 }
@@ -180,6 +178,10 @@ void copy_records(const RecordTable& table, std::string_view bytes, Cloud& cloud
     copy_all<true>(table, bytes, cloud, at, begin, end);
   else
     copy_all<false>(table, bytes, cloud, at, begin, end);
+  for (std::size_t i = begin; table.image_columns > 0 && i < end; ++i) {
+    cloud.rows[at + i - begin] = static_cast<std::int32_t>(i / table.image_columns);
+    cloud.columns[at + i - begin] = static_cast<std::int32_t>(i % table.image_columns);
+  }
 }
 
 void append_records(CloudSink& sink, const RecordTable& table, std::string_view bytes,

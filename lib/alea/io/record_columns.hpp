@@ -2,12 +2,13 @@
 
 #include <cstddef>
 #include <functional>
-#include <string>
+#include <optional>
 #include <string_view>
 #include <vector>
 
 #include "alea/core/cloud.hpp"
 #include "alea/io/cloud_sink.hpp"
+#include "alea/io/field_role.hpp"
 
 namespace alea {
 
@@ -29,7 +30,7 @@ std::size_t size_of(ScalarType type);
 
 /// One field of fixed-size records: element i lies at offset + i * stride.
 struct RecordColumn {
-  std::string name;
+  std::optional<FieldRole> role;
   ScalarType type = ScalarType::float32;
   std::size_t offset = 0;
   std::size_t stride = 0;
@@ -39,10 +40,11 @@ struct RecordColumn {
 struct RecordTable {
   std::vector<RecordColumn> columns;
   bool big_endian = false;
+  std::size_t image_columns = 0;  ///< of points that lie row by row (PCD); 0: no image
 };
 
 /// Copies records [begin, end) of `bytes` into the cloud's arrays from index `at` on, each field to
-/// where its name's role says; fields without a role or without an array are skipped. Integer
+/// where its role says; fields without a role or without an array are skipped. Integer
 /// colours of 8 bits are widened (v * 257), float colours are taken as 0 to 1. The caller has
 /// checked that the records lie inside `bytes`.
 void copy_records(const RecordTable& table, std::string_view bytes, Cloud& cloud, std::size_t at,

@@ -11,16 +11,18 @@
 
 namespace alea {
 
-/// The columns of a text table. Values are separated by blanks and tabs.
+/// The columns of a text table. Values are separated by blanks and tabs, or by `separator`.
 struct TextTable {
   std::vector<std::string> names;  ///< one for each column; a name without a role is skipped
   std::vector<bool> lists;         ///< a column that holds a count and as many values (PLY)
   std::vector<bool> packed_float;  ///< a packed colour that is written as a float (PCD)
-  bool commas = false;             ///< commas and semicolons separate values too
-  std::size_t grid_rows = 0;   ///< of a PTX grid: points come column by column, 0 0 0 is no return
-  bool comments = false;       ///< lines that begin with # or // are skipped
-  bool byte_colours = false;   ///< colours are 0 to 255 and are widened (v * 257)
-  bool float_colours = false;  ///< colours are 0 to 1; neither: 0 to 65535
+  char separator = '\0';           ///< a comma or semicolon that stands between any two values
+  bool free_text = false;          ///< a column without a role may hold any text
+  std::size_t grid_rows = 0;  ///< of a PTX grid: points come column by column, 0 0 0 is no return
+  std::size_t image_columns = 0;  ///< of points that lie row by row (PCD)
+  bool comments = false;          ///< lines that begin with # or // are skipped
+  bool byte_colours = false;      ///< colours are 0 to 255 and are widened (v * 257)
+  bool float_colours = false;     ///< colours are 0 to 1; neither: 0 to 65535
 };
 
 /// Where a table stands in its file, for messages.

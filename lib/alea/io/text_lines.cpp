@@ -1,10 +1,13 @@
 #include "alea/io/text_lines.hpp"
 
-#include <array>
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <limits>
+
+#include "alea/core/error.hpp"
 
 namespace alea {
 
@@ -13,6 +16,23 @@ TextLine line_at(std::string_view text, std::size_t offset) {
   if (found == nullptr) return {text.substr(offset), text.size()};
   const auto end = static_cast<std::size_t>(static_cast<const char*>(found) - text.data());
   return {text.substr(offset, end - offset), end + 1};
+}
+
+std::size_t start_of_text(const std::string& path, std::string_view bytes) {
+  const auto refuse = [&](const char* what) {
+    throw input_error(fmt::format("{}: line 1: {}; expected lines of numbers", path, what));
+  };
+  if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF"))
+    refuse("UTF-16 text, which is not read; save it as UTF-8");
+  const std::string_view front = bytes.substr(0, 4096);
+  if (front.find('\0') != std::string_view::npos) refuse("binary data");
+  const auto end = front.find_first_of("\r\n");
+  if (end != std::string_view::npos && front[end] == '\r') {
+    const auto next = bytes.find_first_not_of('\r', end);
+    if (next != std::string_view::npos && bytes[next] != '\n')
+      refuse("a line that ends in CR alone; save it with the line ends of Unix or Windows");
+  }
+  return bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0;
 }
 
 std::vector<std::string_view> split_values(std::string_view line) {
@@ -28,11 +48,6 @@ std::vector<std::string_view> split_values(std::string_view line) {
 
 namespace {
 
-// Powers of ten that a double holds exactly.
-constexpr std::array<double, 23> powers_of_ten{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                               1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
-                                               1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-
 NumberText read_any_number(const char* at, const char* end) {
   double value = 0;
   const auto [next, error] = std::from_chars(at, end, value);
@@ -42,7 +57,7 @@ NumberText read_any_number(const char* at, const char* end) {
 
 }  // namespace
 
-NumberText read_number(const char* at, const char* end) {
+NumberText read_by_digits(const char* at, const char* end) {
   const char* const start = at;
   if (at != end && *at == '+') ++at;
   const char* const number = at;
@@ -62,8 +77,6 @@ NumberText read_number(const char* at, const char* end) {
     decimals = at - point - 1;
     count += decimals;
   }
-  // Up to 15 digits and their power of ten are exact, so one division rounds correctly
-  // (Clinger 1990, How to read floating point numbers accurately). The rest is from_chars' work.
   const bool plain = count > 0 && count <= 15 && (at == end || (*at != 'e' && *at != 'E'));
   if (!plain) {
     const NumberText any = read_any_number(number, end);

@@ -2,8 +2,11 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
+
+#include "alea/io/number_text.hpp"
 
 namespace alea {
 
@@ -20,16 +23,12 @@ struct TextLine {
 };
 TextLine line_at(std::string_view text, std::size_t offset);
 
+/// The offset of the first character, behind a byte order mark of UTF-8. Throws Error(input) for
+/// what is no text in lines of 8-bit characters: zero bytes, UTF-16, lines that end in CR alone.
+std::size_t start_of_text(const std::string& path, std::string_view bytes);
+
 /// The values of a line, split at blanks, tabs, commas or semicolons.
 std::vector<std::string_view> split_values(std::string_view line);
-
-/// The number at the start of [at, end) (a leading + is allowed) and where it ends; `end == at`
-/// where there is none. Correctly rounded; NaN where its size is out of range.
-struct NumberText {
-  double value;
-  const char* end;
-};
-NumberText read_number(const char* at, const char* end);
 
 /// A whole word as a number (a leading + is allowed); empty where it is none.
 std::optional<double> parse_number(std::string_view word);
