@@ -18,7 +18,7 @@ using testing::scan_twice;
 using testing::TwoScans;
 using testing::TwoStationCase;
 
-bool warns(const Registration& result, const std::string& of) {
+bool warned_of(const Registration& result, const std::string& of) {
   return std::any_of(result.warnings.begin(), result.warnings.end(),
                      [&](const std::string& warning) { return warning.starts_with(of); });
 }
@@ -62,11 +62,11 @@ TEST(RegisterDieOddScenes, PlanesOfTheSceneContradictAnEdgeAndAccuseNoFacet) {
   const TwoScans scans = scan_twice(room);
   const Registration wrong = register_die(scans.master, scans.slave, with_edge(0.515));
   ASSERT_FALSE(wrong.refusal) << wrong.refusal->message;
-  EXPECT_TRUE(warns(wrong, "edge_unverified: the planes"));
-  EXPECT_FALSE(warns(wrong, "facet_suspect"));
+  EXPECT_TRUE(warned_of(wrong, "edge_unverified: the planes"));
+  EXPECT_FALSE(warned_of(wrong, "facet_suspect"));
   const Registration right = register_die(scans.master, scans.slave, with_edge(0.5));
   expect_true(right, scans);
-  EXPECT_FALSE(warns(right, "edge_unverified"));
+  EXPECT_FALSE(warned_of(right, "edge_unverified"));
 }
 
 TEST(RegisterDieOddScenes, PipsDeeperThanTheFacetsNoiseAreRead) {
