@@ -130,7 +130,8 @@ void measure_axis(const Footprints& facet, const FacetCorner& corner, int k, int
   out.high_m[axis] =
       per_metre > 0 ? to + area_between(facet, axis, to, end + bin) / per_metre : end;
   out.border_m[axis] = out.length_m[axis] = out.high_m[axis];
-  out.sampling_sd_m[axis] = spacing_m / std::sqrt(12.0);  // the end lies anywhere between two lines
+  // Of its end, and of the density that it is measured by.
+  out.sampling_sd_m[axis] = 0.5 * spacing_m;
   if (goes_on(facet, axis, end, bin)) {
     out.hidden_sd_m[axis] = options.outside_gate_m / 2;
     return;
