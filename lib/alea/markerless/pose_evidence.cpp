@@ -45,7 +45,40 @@ Counts count(const PreparedScan& to, const Cloud& from, const RigidTransform& to
   return sum;
 }
 
+constexpr std::size_t rough_stride = 2;
+
+/// The same for poses that are not exact: no search tree, wide margins.
+Counts count_roughly(const PreparedScan& to, const Cloud& from,
+                     const RigidTransform& to_from_from) {
+  constexpr double margin_m = 0.6;
+  Counts sum;
+  for (std::size_t i = 0; i < from.size(); i += rough_stride) {
+    const Eigen::Vector3d p = to_from_from * from.positions[i];
+    if (to.surfaces.has(p, to_from_from.rotation * from.normals[i].cast<double>()))
+      ++sum.agree;
+    else if (to.free_space.is_in_free_space(p, margin_m))
+      ++sum.conflict;
+  }
+  return sum;
+}
+
 }  // namespace
+
+PoseEvidence rough_evidence(const PreparedScan& fixed, const PreparedScan& moving,
+                            const RigidTransform& fixed_from_moving) {
+  const Counts moved = count_roughly(fixed, moving.probe, fixed_from_moving);
+  const Counts back = count_roughly(moving, fixed.probe, fixed_from_moving.inverse());
+  const auto share = [](std::size_t n, const Cloud& cloud) {
+    return static_cast<double>(n * rough_stride) /
+           static_cast<double>(std::max<std::size_t>(cloud.size(), 1));
+  };
+  PoseEvidence evidence;
+  evidence.agree_moving = share(moved.agree, moving.probe);
+  evidence.conflict_moving = share(moved.conflict, moving.probe);
+  evidence.agree_fixed = share(back.agree, fixed.probe);
+  evidence.conflict_fixed = share(back.conflict, fixed.probe);
+  return evidence;
+}
 
 PoseEvidence pose_evidence(const PreparedScan& fixed, const PreparedScan& moving,
                            const RigidTransform& fixed_from_moving,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "alea/core/angle.hpp"
 #include "alea/core/parallel.hpp"
@@ -29,41 +28,48 @@ IcpOptions gated(double gate_m, int iterations, RobustKernel kernel) {
   return options;
 }
 
+/// Contradiction for each agreement, small where the pose is good; the constant lets poses that
+/// nothing contradicts follow their agreement.
+double contradiction(const PoseEvidence& evidence, double least_overlap) {
+  constexpr double floor = 0.01;
+  if (evidence.overlap() < least_overlap) return 1e9;
+  return evidence.conflict_ratio() + floor / (2 * evidence.overlap());
+}
+
+/// The most promising by the maps of surfaces and free space: the generator's own score says little
+/// where most of what the scans show is not common.
+std::vector<PoseCandidate> most_promising(const PreparedScan& fixed, const PreparedScan& moving,
+                                          std::vector<PoseCandidate> candidates,
+                                          std::size_t count) {
+  parallel_chunks(candidates.size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const PoseEvidence found = rough_evidence(fixed, moving, candidates[i].fixed_from_moving);
+      candidates[i].score = -contradiction(found, 0.05);
+    }
+  });
+  return distinct(std::move(candidates), 4 * deg, 0.4, count);
+}
+
 std::vector<PoseCandidate> all_candidates(const PreparedScan& fixed, const PreparedScan& moving,
                                           const PoseSearchOptions& options) {
-  std::vector<PoseCandidate> sweep, features, triples;
-  parallel_pair([&] { sweep = distinct(yaw_sweep(fixed, moving, {}), 5 * deg, 0.5, 150); },
-                [&] {
-                  features = feature_candidates(fixed, moving, {.seed = options.seed});
-                  triples = plane_triple_candidates(fixed, moving, {});
-                });
+  std::vector<PoseCandidate> sweep, axes, features, triples;
+  parallel_pair(
+      [&] {
+        sweep = most_promising(fixed, moving, yaw_sweep(fixed, moving, {}), options.of_yaw_sweep);
+        axes = most_promising(fixed, moving, axis_sweep(fixed, moving, {}), options.of_axis_sweep);
+      },
+      [&] {
+        features = feature_candidates(fixed, moving, {.seed = options.seed});
+        triples = plane_triple_candidates(fixed, moving, {});
+      });
+  features.resize(std::min(features.size(), options.of_others));
+  triples.resize(std::min(triples.size(), options.of_others));
   std::vector<PoseCandidate> all;
   if (options.initial) all.push_back({*options.initial, 1, CandidateSource::initial});
   all.push_back({{}, 0, CandidateSource::identity});
-  for (const auto& part : {sweep, features, triples})
+  for (const auto& part : {sweep, axes, features, triples})
     all.insert(all.end(), part.begin(), part.end());
   return all;
-}
-
-/// The best of each generator, and those of the rest that the probes contradict least.
-std::vector<PoseCandidate> screen(const PreparedScan& fixed, const PreparedScan& moving,
-                                  const std::vector<PoseCandidate>& candidates,
-                                  const PoseSearchOptions& options) {
-  std::vector<PoseCandidate> kept, rest;
-  std::map<CandidateSource, std::size_t> of_source;
-  for (const PoseCandidate& candidate : candidates)  // best first within a source
-    (of_source[candidate.source]++ < options.of_each_source ? kept : rest).push_back(candidate);
-  EvidenceOptions evidence;
-  evidence.agree_m = 5 * std::max(fixed.cell_m, moving.cell_m);
-  evidence.free_margin_m = evidence.agree_m;
-  evidence.use_probe = true;
-  parallel_chunks(rest.size(), 1, [&](std::size_t i, std::size_t) {
-    const PoseEvidence found = pose_evidence(fixed, moving, rest[i].fixed_from_moving, evidence);
-    rest[i].score = found.overlap() < 0.05 ? -1e9 : -found.conflict_ratio();
-  });
-  rest = distinct(std::move(rest), 3 * deg, 0.3, options.screened);
-  kept.insert(kept.end(), rest.begin(), rest.end());
-  return kept;
 }
 
 /// Each refined by its probe against the coarse grid; the least contradicted first.
@@ -85,13 +91,17 @@ std::vector<PoseCandidate> refine_coarsely(const PreparedScan& fixed, const Prep
            {gated(10 * cell_m, 10, kernel), gated(4 * cell_m, 10, kernel)})
         pose = icp(target, moving.probe, pose, options).target_from_source;
       const PoseEvidence found = pose_evidence(fixed, moving, pose, evidence);
-      const double score = found.overlap() < 0.03 ? -1e9 : -found.conflict_ratio();
+      const double score = -contradiction(found, 0.03);
       if (score <= candidate.score) continue;
       candidate.score = score;
       candidate.fixed_from_moving = pose;
     }
   });
   return distinct(std::move(candidates), 2 * deg, 0.3, count);
+}
+
+bool more_promising(const PoseHypothesis& a, const PoseHypothesis& b) {
+  return contradiction(a.evidence, 0) < contradiction(b.evidence, 0);
 }
 
 bool less_contradicted(const PoseHypothesis& a, const PoseHypothesis& b) {
@@ -127,7 +137,6 @@ PoseHypothesis refined(const PreparedScan& fixed, const PreparedScan& moving,
 std::vector<PoseHypothesis> search_pose(const PreparedScan& fixed, const PreparedScan& moving,
                                         const PoseSearchOptions& options) {
   std::vector<PoseCandidate> candidates = all_candidates(fixed, moving, options);
-  candidates = screen(fixed, moving, candidates, options);
   candidates = refine_coarsely(fixed, moving, std::move(candidates), options.judged);
   const double cell_m = std::max(fixed.cell_m, moving.cell_m);
   const IcpOptions trimmed = gated(3.5 * cell_m, 15, RobustKernel::none);
@@ -141,9 +150,9 @@ std::vector<PoseHypothesis> search_pose(const PreparedScan& fixed, const Prepare
     start.source = candidates[i].source;
     hypotheses[i] = refined(fixed, moving, target, moving.coarse, weighted, start);
     const PoseHypothesis other = refined(fixed, moving, target, moving.coarse, trimmed, start);
-    if (less_contradicted(other, hypotheses[i])) hypotheses[i] = other;
+    if (more_promising(other, hypotheses[i])) hypotheses[i] = other;
   });
-  std::stable_sort(hypotheses.begin(), hypotheses.end(), less_contradicted);
+  std::stable_sort(hypotheses.begin(), hypotheses.end(), more_promising);
   hypotheses = distinct_poses(hypotheses);
   parallel_chunks(
       std::min(hypotheses.size(), options.finished), 1, [&](std::size_t i, std::size_t) {
