@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "alea/markerless/standing_agreement.hpp"
 #include "alea/markerless/surface_map.hpp"
 #include "alea/markerless/symmetry_axis.hpp"
 #include "alea/markerless/yaw_sweep.hpp"
@@ -48,6 +50,37 @@ TEST(SurfaceMap, StaysSmallForWideClouds) {
 
 TEST(SurfaceMap, EmptyHasNothing) {
   EXPECT_FALSE(SurfaceMap(Cloud{}, 0.5).has({0, 0, 0}, {0, 0, 1}));
+}
+
+/// Rolling ground 1.6 m below a scanner, with a wall 3 m ahead where `with_wall` says so.
+PreparedScan rolling_ground(bool with_wall) {
+  Cloud cloud;
+  for (double x = -8; x < 8; x += 0.1)
+    for (double y = -8; y < 8; y += 0.1)
+      cloud.positions.emplace_back(x, y, -1.6 + 0.15 * std::sin(0.7 * x) * std::cos(0.5 * y));
+  for (double y = -3; with_wall && y < 3; y += 0.1)
+    for (double z = -1.3; z < 2; z += 0.1) cloud.positions.emplace_back(3, y, z);
+  return prepare_scan(cloud, {});
+}
+
+TEST(StandingEvidence, GroundOnTheGroundOfAnotherPlaceDoesNotStand) {
+  const PreparedScan ground = rolling_ground(false);
+  RigidTransform elsewhere;
+  elsewhere.translation = {4, 1, 0};
+  const StandingEvidence found = standing_evidence(ground, ground, elsewhere, {});
+  EXPECT_GT(found.evidence.overlap(), 0.2);
+  EXPECT_LT(found.standing, 0.01);
+}
+
+TEST(StandingEvidence, AWallOnItselfStandsAndRanksAboveTheGroundAlone) {
+  const PreparedScan scan = rolling_ground(true);
+  RigidTransform elsewhere;
+  elsewhere.rotation = Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const StandingEvidence here = standing_evidence(scan, scan, {}, {});
+  const StandingEvidence there = standing_evidence(scan, scan, elsewhere, {});
+  EXPECT_GT(here.standing, 0.04);
+  EXPECT_LT(there.standing, 0.01);
+  EXPECT_LT(here.contradiction(), there.contradiction() / 2);
 }
 
 /// Layout 2023 of the tower, two opposite outdoor stations and an indoor one.

@@ -7,6 +7,7 @@
 #include "alea/core/parallel.hpp"
 #include "alea/markerless/feature_match.hpp"
 #include "alea/markerless/plane_triples.hpp"
+#include "alea/markerless/standing_agreement.hpp"
 #include "alea/markerless/yaw_sweep.hpp"
 
 namespace alea {
@@ -28,14 +29,6 @@ IcpOptions gated(double gate_m, int iterations, RobustKernel kernel) {
   return options;
 }
 
-/// Contradiction for each agreement, small where the pose is good; the constant lets poses that
-/// nothing contradicts follow their agreement.
-double contradiction(const PoseEvidence& evidence, double least_overlap) {
-  constexpr double floor = 0.01;
-  if (evidence.overlap() < least_overlap) return 1e9;
-  return evidence.conflict_ratio() + floor / (2 * evidence.overlap());
-}
-
 /// The most promising by the maps of surfaces and free space: the generator's own score says little
 /// where most of what the scans show is not common.
 std::vector<PoseCandidate> most_promising(const PreparedScan& fixed, const PreparedScan& moving,
@@ -43,8 +36,9 @@ std::vector<PoseCandidate> most_promising(const PreparedScan& fixed, const Prepa
                                           std::size_t count) {
   parallel_chunks(candidates.size(), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const PoseEvidence found = rough_evidence(fixed, moving, candidates[i].fixed_from_moving);
-      candidates[i].score = -contradiction(found, 0.05);
+      const StandingEvidence found =
+          rough_standing_evidence(fixed, moving, candidates[i].fixed_from_moving);
+      candidates[i].score = found.evidence.overlap() < 0.05 ? -1e9 : -found.contradiction();
     }
   });
   return distinct(std::move(candidates), 4 * deg, 0.4, count);
@@ -90,18 +84,14 @@ std::vector<PoseCandidate> refine_coarsely(const PreparedScan& fixed, const Prep
       for (const IcpOptions& options :
            {gated(10 * cell_m, 10, kernel), gated(4 * cell_m, 10, kernel)})
         pose = icp(target, moving.probe, pose, options).target_from_source;
-      const PoseEvidence found = pose_evidence(fixed, moving, pose, evidence);
-      const double score = -contradiction(found, 0.03);
+      const StandingEvidence found = standing_evidence(fixed, moving, pose, evidence);
+      const double score = found.evidence.overlap() < 0.03 ? -1e9 : -found.contradiction();
       if (score <= candidate.score) continue;
       candidate.score = score;
       candidate.fixed_from_moving = pose;
     }
   });
   return distinct(std::move(candidates), 2 * deg, 0.3, count);
-}
-
-bool more_promising(const PoseHypothesis& a, const PoseHypothesis& b) {
-  return contradiction(a.evidence, 0) < contradiction(b.evidence, 0);
 }
 
 bool less_contradicted(const PoseHypothesis& a, const PoseHypothesis& b) {
@@ -120,16 +110,46 @@ std::vector<PoseHypothesis> distinct_poses(const std::vector<PoseHypothesis>& hy
   return kept;
 }
 
-/// One ICP against the fine grid, then the evidence of all points.
-PoseHypothesis refined(const PreparedScan& fixed, const PreparedScan& moving,
-                       const IcpTarget& target, const Cloud& source, const IcpOptions& options,
-                       const PoseHypothesis& start) {
-  const IcpResult result = icp(target, source, start.fixed_from_moving, options);
+/// A hypothesis with its rank, the smaller the better.
+struct Ranked {
   PoseHypothesis hypothesis;
-  hypothesis.source = start.source;
-  hypothesis.fixed_from_moving = result.target_from_source;
-  hypothesis.evidence = pose_evidence(fixed, moving, result.target_from_source, {});
-  return hypothesis;
+  double contradiction = 1e9;
+};
+
+/// One ICP against the fine grid, then the evidence of all points.
+Ranked refined(const PreparedScan& fixed, const PreparedScan& moving, const IcpTarget& target,
+               const Cloud& source, const IcpOptions& options, const RigidTransform& start) {
+  const IcpResult result = icp(target, source, start, options);
+  const StandingEvidence found = standing_evidence(fixed, moving, result.target_from_source, {});
+  Ranked ranked;
+  ranked.hypothesis.fixed_from_moving = result.target_from_source;
+  ranked.hypothesis.evidence = found.evidence;
+  ranked.contradiction = found.contradiction();
+  return ranked;
+}
+
+/// All candidates on the fine grid, trimmed and under weights; the most promising first.
+std::vector<PoseHypothesis> refine_finely(const PreparedScan& fixed, const PreparedScan& moving,
+                                          const IcpTarget& target,
+                                          const std::vector<PoseCandidate>& candidates,
+                                          double cell_m) {
+  std::vector<Ranked> ranked(candidates.size());
+  parallel_chunks(candidates.size(), 1, [&](std::size_t i, std::size_t) {
+    for (const RobustKernel kernel : {RobustKernel::tukey, RobustKernel::none}) {
+      const Ranked other =
+          refined(fixed, moving, target, moving.coarse, gated(3.5 * cell_m, 15, kernel),
+                  candidates[i].fixed_from_moving);
+      if (kernel == RobustKernel::tukey || other.contradiction < ranked[i].contradiction)
+        ranked[i] = other;
+    }
+    ranked[i].hypothesis.source = candidates[i].source;
+  });
+  std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
+    return a.contradiction < b.contradiction;
+  });
+  std::vector<PoseHypothesis> hypotheses;
+  for (const Ranked& one : ranked) hypotheses.push_back(one.hypothesis);
+  return distinct_poses(hypotheses);
 }
 
 }  // namespace
@@ -139,24 +159,16 @@ std::vector<PoseHypothesis> search_pose(const PreparedScan& fixed, const Prepare
   std::vector<PoseCandidate> candidates = all_candidates(fixed, moving, options);
   candidates = refine_coarsely(fixed, moving, std::move(candidates), options.judged);
   const double cell_m = std::max(fixed.cell_m, moving.cell_m);
-  const IcpOptions trimmed = gated(3.5 * cell_m, 15, RobustKernel::none);
-  const IcpOptions weighted = gated(3.5 * cell_m, 15, RobustKernel::tukey);
   const IcpOptions last = gated(1.2 * cell_m, 25, RobustKernel::tukey);
-  const IcpTarget target(fixed.fine, trimmed);
-  std::vector<PoseHypothesis> hypotheses(candidates.size());
-  parallel_chunks(candidates.size(), 1, [&](std::size_t i, std::size_t) {
-    PoseHypothesis start;
-    start.fixed_from_moving = candidates[i].fixed_from_moving;
-    start.source = candidates[i].source;
-    hypotheses[i] = refined(fixed, moving, target, moving.coarse, weighted, start);
-    const PoseHypothesis other = refined(fixed, moving, target, moving.coarse, trimmed, start);
-    if (more_promising(other, hypotheses[i])) hypotheses[i] = other;
-  });
-  std::stable_sort(hypotheses.begin(), hypotheses.end(), more_promising);
-  hypotheses = distinct_poses(hypotheses);
+  const IcpTarget target(fixed.fine, last);
+  std::vector<PoseHypothesis> hypotheses = refine_finely(fixed, moving, target, candidates, cell_m);
   parallel_chunks(
       std::min(hypotheses.size(), options.finished), 1, [&](std::size_t i, std::size_t) {
-        hypotheses[i] = refined(fixed, moving, target, moving.fine, last, hypotheses[i]);
+        PoseHypothesis& hypothesis = hypotheses[i];
+        const CandidateSource source = hypothesis.source;
+        hypothesis = refined(fixed, moving, target, moving.fine, last, hypothesis.fixed_from_moving)
+                         .hypothesis;
+        hypothesis.source = source;
       });
   std::stable_sort(hypotheses.begin(), hypotheses.end(), less_contradicted);
   return distinct_poses(hypotheses);
