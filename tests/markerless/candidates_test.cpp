@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "alea/markerless/standing_agreement.hpp"
 #include "alea/markerless/surface_map.hpp"
@@ -18,7 +19,7 @@ using experiments::markerless::TwinOptions;
 using experiments::markerless::TwinScans;
 
 /// A wall in the plane x = 0, 4 m wide, that faces +x.
-Cloud wall() {
+Cloud facing_wall() {
   Cloud cloud;
   for (int i = -20; i <= 20; ++i)
     for (int j = -20; j <= 20; ++j) {
@@ -29,7 +30,7 @@ Cloud wall() {
 }
 
 TEST(SurfaceMap, FindsASurfaceNearbyThatFacesTheSameWay) {
-  const SurfaceMap map(wall(), 0.5);
+  const SurfaceMap map(facing_wall(), 0.5);
   EXPECT_TRUE(map.has({0.24, 0.5, -0.3}, {1, 0, 0}));
   EXPECT_TRUE(map.has({-0.24, 0.5, -0.3}, Eigen::Vector3d(1, 0.5, 0).normalized()));
   EXPECT_FALSE(map.has({0.1, 0.5, -0.3}, {-1, 0, 0})) << "the other face of the wall";
@@ -39,7 +40,7 @@ TEST(SurfaceMap, FindsASurfaceNearbyThatFacesTheSameWay) {
 }
 
 TEST(SurfaceMap, StaysSmallForWideClouds) {
-  Cloud cloud = wall();
+  Cloud cloud = facing_wall();
   cloud.positions.emplace_back(5000, 5000, 100);
   cloud.normals.emplace_back(0, 0, 1);
   const SurfaceMap map(cloud, 0.5);
@@ -75,7 +76,8 @@ TEST(StandingEvidence, GroundOnTheGroundOfAnotherPlaceDoesNotStand) {
 TEST(StandingEvidence, AWallOnItselfStandsAndRanksAboveTheGroundAlone) {
   const PreparedScan scan = rolling_ground(true);
   RigidTransform elsewhere;
-  elsewhere.rotation = Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  elsewhere.rotation =
+      Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   const StandingEvidence here = standing_evidence(scan, scan, {}, {});
   const StandingEvidence there = standing_evidence(scan, scan, elsewhere, {});
   EXPECT_GT(here.standing, 0.04);
