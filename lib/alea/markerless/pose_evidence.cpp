@@ -126,17 +126,12 @@ PoseEvidence pose_evidence(const PreparedScan& fixed, const PreparedScan& moving
   return standing_evidence(fixed, moving, fixed_from_moving, options).evidence;
 }
 
-StandingEvidence rough_standing_evidence(const PreparedScan& fixed, const PreparedScan& moving,
-                                         const RigidTransform& fixed_from_moving) {
+StandingEvidence rough_evidence(const PreparedScan& fixed, const PreparedScan& moving,
+                                const RigidTransform& fixed_from_moving) {
   const Counts moved = count_roughly(fixed, seen(moving, moving.probe), fixed_from_moving);
   const Counts back = count_roughly(moving, seen(fixed, fixed.probe), fixed_from_moving.inverse());
   return evidence_of(back, (fixed.probe.size() + 1) / rough_stride, moved,
                      (moving.probe.size() + 1) / rough_stride);
-}
-
-PoseEvidence rough_evidence(const PreparedScan& fixed, const PreparedScan& moving,
-                            const RigidTransform& fixed_from_moving) {
-  return rough_standing_evidence(fixed, moving, fixed_from_moving).evidence;
 }
 
 }  // namespace alea

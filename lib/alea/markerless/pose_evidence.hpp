@@ -30,9 +30,4 @@ struct PoseEvidence {
 PoseEvidence pose_evidence(const PreparedScan& fixed, const PreparedScan& moving,
                            const RigidTransform& fixed_from_moving, const EvidenceOptions& options);
 
-/// A guess of the same for a pose that may be half a metre off, from every second point of the
-/// probes and the maps of surfaces: thousands of poses a second. No residuals.
-PoseEvidence rough_evidence(const PreparedScan& fixed, const PreparedScan& moving,
-                            const RigidTransform& fixed_from_moving);
-
 }  // namespace alea

@@ -36,8 +36,7 @@ std::vector<PoseCandidate> most_promising(const PreparedScan& fixed, const Prepa
                                           std::size_t count) {
   parallel_chunks(candidates.size(), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const StandingEvidence found =
-          rough_standing_evidence(fixed, moving, candidates[i].fixed_from_moving);
+      const StandingEvidence found = rough_evidence(fixed, moving, candidates[i].fixed_from_moving);
       candidates[i].score = found.evidence.overlap() < 0.05 ? -1e9 : -found.contradiction();
     }
   });

@@ -20,7 +20,7 @@ StandingEvidence standing_evidence(const PreparedScan& fixed, const PreparedScan
 
 /// A guess of the same for a pose that may be half a metre off, from every second point of the
 /// probes and the maps of surfaces: thousands of poses a second. No residuals.
-StandingEvidence rough_standing_evidence(const PreparedScan& fixed, const PreparedScan& moving,
-                                         const RigidTransform& fixed_from_moving);
+StandingEvidence rough_evidence(const PreparedScan& fixed, const PreparedScan& moving,
+                                const RigidTransform& fixed_from_moving);
 
 }  // namespace alea
