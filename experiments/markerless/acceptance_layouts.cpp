@@ -12,8 +12,8 @@ namespace {
 
 using namespace experiments::markerless;
 
-/// Drawn after the last change of the method and not looked at before; 1, 2011 and 2023 were used
-/// to develop it.
+/// Committed before the tag markerless-freeze-1, after which the method stayed as it was, and not
+/// looked at before it; 1, 2011 and 2023 were used to develop the method.
 constexpr std::array<std::uint64_t, 10> frozen_layouts{5207, 5231, 5273, 5303, 5351,
                                                        5393, 5419, 5443, 5479, 5501};
 /// Of the tower three outdoor and three indoor stations, of the lighthouse six around it.

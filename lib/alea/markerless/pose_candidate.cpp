@@ -12,6 +12,8 @@ const char* to_string(CandidateSource source) {
       return "identity";
     case CandidateSource::yaw_sweep:
       return "yaw_sweep";
+    case CandidateSource::axis_sweep:
+      return "axis_sweep";
     case CandidateSource::features:
       return "features";
     case CandidateSource::plane_triples:

@@ -6,7 +6,7 @@
 
 namespace alea {
 
-enum class CandidateSource { initial, identity, yaw_sweep, features, plane_triples };
+enum class CandidateSource { initial, identity, yaw_sweep, axis_sweep, features, plane_triples };
 
 const char* to_string(CandidateSource source);
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "alea/core/angle.hpp"
 #include "alea/core/parallel.hpp"
 #include "alea/markerless/feature_match.hpp"
 #include "alea/markerless/plane_triples.hpp"
+#include "alea/markerless/standing_agreement.hpp"
 #include "alea/markerless/yaw_sweep.hpp"
 
 namespace alea {
@@ -29,41 +29,40 @@ IcpOptions gated(double gate_m, int iterations, RobustKernel kernel) {
   return options;
 }
 
+/// The most promising by the maps of surfaces and free space: the generator's own score says little
+/// where most of what the scans show is not common.
+std::vector<PoseCandidate> most_promising(const PreparedScan& fixed, const PreparedScan& moving,
+                                          std::vector<PoseCandidate> candidates,
+                                          std::size_t count) {
+  parallel_chunks(candidates.size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const StandingEvidence found = rough_evidence(fixed, moving, candidates[i].fixed_from_moving);
+      candidates[i].score = found.evidence.overlap() < 0.05 ? -1e9 : -found.contradiction();
+    }
+  });
+  return distinct(std::move(candidates), 4 * deg, 0.4, count);
+}
+
 std::vector<PoseCandidate> all_candidates(const PreparedScan& fixed, const PreparedScan& moving,
                                           const PoseSearchOptions& options) {
-  std::vector<PoseCandidate> sweep, features, triples;
-  parallel_pair([&] { sweep = distinct(yaw_sweep(fixed, moving, {}), 5 * deg, 0.5, 150); },
-                [&] {
-                  features = feature_candidates(fixed, moving, {.seed = options.seed});
-                  triples = plane_triple_candidates(fixed, moving, {});
-                });
+  std::vector<PoseCandidate> sweep, axes, features, triples;
+  parallel_pair(
+      [&] {
+        sweep = most_promising(fixed, moving, yaw_sweep(fixed, moving, {}), options.of_yaw_sweep);
+        axes = most_promising(fixed, moving, axis_sweep(fixed, moving, {}), options.of_axis_sweep);
+      },
+      [&] {
+        features = feature_candidates(fixed, moving, {.seed = options.seed});
+        triples = plane_triple_candidates(fixed, moving, {});
+      });
+  features.resize(std::min(features.size(), options.of_others));
+  triples.resize(std::min(triples.size(), options.of_others));
   std::vector<PoseCandidate> all;
   if (options.initial) all.push_back({*options.initial, 1, CandidateSource::initial});
   all.push_back({{}, 0, CandidateSource::identity});
-  for (const auto& part : {sweep, features, triples})
+  for (const auto& part : {sweep, axes, features, triples})
     all.insert(all.end(), part.begin(), part.end());
   return all;
-}
-
-/// The best of each generator, and those of the rest that the probes contradict least.
-std::vector<PoseCandidate> screen(const PreparedScan& fixed, const PreparedScan& moving,
-                                  const std::vector<PoseCandidate>& candidates,
-                                  const PoseSearchOptions& options) {
-  std::vector<PoseCandidate> kept, rest;
-  std::map<CandidateSource, std::size_t> of_source;
-  for (const PoseCandidate& candidate : candidates)  // best first within a source
-    (of_source[candidate.source]++ < options.of_each_source ? kept : rest).push_back(candidate);
-  EvidenceOptions evidence;
-  evidence.agree_m = 5 * std::max(fixed.cell_m, moving.cell_m);
-  evidence.free_margin_m = evidence.agree_m;
-  evidence.use_probe = true;
-  parallel_chunks(rest.size(), 1, [&](std::size_t i, std::size_t) {
-    const PoseEvidence found = pose_evidence(fixed, moving, rest[i].fixed_from_moving, evidence);
-    rest[i].score = found.overlap() < 0.05 ? -1e9 : -found.conflict_ratio();
-  });
-  rest = distinct(std::move(rest), 3 * deg, 0.3, options.screened);
-  kept.insert(kept.end(), rest.begin(), rest.end());
-  return kept;
 }
 
 /// Each refined by its probe against the coarse grid; the least contradicted first.
@@ -84,8 +83,8 @@ std::vector<PoseCandidate> refine_coarsely(const PreparedScan& fixed, const Prep
       for (const IcpOptions& options :
            {gated(10 * cell_m, 10, kernel), gated(4 * cell_m, 10, kernel)})
         pose = icp(target, moving.probe, pose, options).target_from_source;
-      const PoseEvidence found = pose_evidence(fixed, moving, pose, evidence);
-      const double score = found.overlap() < 0.03 ? -1e9 : -found.conflict_ratio();
+      const StandingEvidence found = standing_evidence(fixed, moving, pose, evidence);
+      const double score = found.evidence.overlap() < 0.03 ? -1e9 : -found.contradiction();
       if (score <= candidate.score) continue;
       candidate.score = score;
       candidate.fixed_from_moving = pose;
@@ -110,16 +109,46 @@ std::vector<PoseHypothesis> distinct_poses(const std::vector<PoseHypothesis>& hy
   return kept;
 }
 
-/// One ICP against the fine grid, then the evidence of all points.
-PoseHypothesis refined(const PreparedScan& fixed, const PreparedScan& moving,
-                       const IcpTarget& target, const Cloud& source, const IcpOptions& options,
-                       const PoseHypothesis& start) {
-  const IcpResult result = icp(target, source, start.fixed_from_moving, options);
+/// A hypothesis with its rank, the smaller the better.
+struct Ranked {
   PoseHypothesis hypothesis;
-  hypothesis.source = start.source;
-  hypothesis.fixed_from_moving = result.target_from_source;
-  hypothesis.evidence = pose_evidence(fixed, moving, result.target_from_source, {});
-  return hypothesis;
+  double contradiction = 1e9;
+};
+
+/// One ICP against the fine grid, then the evidence of all points.
+Ranked refined(const PreparedScan& fixed, const PreparedScan& moving, const IcpTarget& target,
+               const Cloud& source, const IcpOptions& options, const RigidTransform& start) {
+  const IcpResult result = icp(target, source, start, options);
+  const StandingEvidence found = standing_evidence(fixed, moving, result.target_from_source, {});
+  Ranked ranked;
+  ranked.hypothesis.fixed_from_moving = result.target_from_source;
+  ranked.hypothesis.evidence = found.evidence;
+  ranked.contradiction = found.contradiction();
+  return ranked;
+}
+
+/// All candidates on the fine grid, trimmed and under weights; the most promising first.
+std::vector<PoseHypothesis> refine_finely(const PreparedScan& fixed, const PreparedScan& moving,
+                                          const IcpTarget& target,
+                                          const std::vector<PoseCandidate>& candidates,
+                                          double cell_m) {
+  std::vector<Ranked> ranked(candidates.size());
+  parallel_chunks(candidates.size(), 1, [&](std::size_t i, std::size_t) {
+    for (const RobustKernel kernel : {RobustKernel::tukey, RobustKernel::none}) {
+      const Ranked other =
+          refined(fixed, moving, target, moving.coarse, gated(3.5 * cell_m, 15, kernel),
+                  candidates[i].fixed_from_moving);
+      if (kernel == RobustKernel::tukey || other.contradiction < ranked[i].contradiction)
+        ranked[i] = other;
+    }
+    ranked[i].hypothesis.source = candidates[i].source;
+  });
+  std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
+    return a.contradiction < b.contradiction;
+  });
+  std::vector<PoseHypothesis> hypotheses;
+  for (const Ranked& one : ranked) hypotheses.push_back(one.hypothesis);
+  return distinct_poses(hypotheses);
 }
 
 }  // namespace
@@ -127,27 +156,18 @@ PoseHypothesis refined(const PreparedScan& fixed, const PreparedScan& moving,
 std::vector<PoseHypothesis> search_pose(const PreparedScan& fixed, const PreparedScan& moving,
                                         const PoseSearchOptions& options) {
   std::vector<PoseCandidate> candidates = all_candidates(fixed, moving, options);
-  candidates = screen(fixed, moving, candidates, options);
   candidates = refine_coarsely(fixed, moving, std::move(candidates), options.judged);
   const double cell_m = std::max(fixed.cell_m, moving.cell_m);
-  const IcpOptions trimmed = gated(3.5 * cell_m, 15, RobustKernel::none);
-  const IcpOptions weighted = gated(3.5 * cell_m, 15, RobustKernel::tukey);
   const IcpOptions last = gated(1.2 * cell_m, 25, RobustKernel::tukey);
-  const IcpTarget target(fixed.fine, trimmed);
-  std::vector<PoseHypothesis> hypotheses(candidates.size());
-  parallel_chunks(candidates.size(), 1, [&](std::size_t i, std::size_t) {
-    PoseHypothesis start;
-    start.fixed_from_moving = candidates[i].fixed_from_moving;
-    start.source = candidates[i].source;
-    hypotheses[i] = refined(fixed, moving, target, moving.coarse, weighted, start);
-    const PoseHypothesis other = refined(fixed, moving, target, moving.coarse, trimmed, start);
-    if (less_contradicted(other, hypotheses[i])) hypotheses[i] = other;
-  });
-  std::stable_sort(hypotheses.begin(), hypotheses.end(), less_contradicted);
-  hypotheses = distinct_poses(hypotheses);
+  const IcpTarget target(fixed.fine, last);
+  std::vector<PoseHypothesis> hypotheses = refine_finely(fixed, moving, target, candidates, cell_m);
   parallel_chunks(
       std::min(hypotheses.size(), options.finished), 1, [&](std::size_t i, std::size_t) {
-        hypotheses[i] = refined(fixed, moving, target, moving.fine, last, hypotheses[i]);
+        PoseHypothesis& hypothesis = hypotheses[i];
+        const CandidateSource source = hypothesis.source;
+        hypothesis = refined(fixed, moving, target, moving.fine, last, hypothesis.fixed_from_moving)
+                         .hypothesis;
+        hypothesis.source = source;
       });
   std::stable_sort(hypotheses.begin(), hypotheses.end(), less_contradicted);
   return distinct_poses(hypotheses);

@@ -13,10 +13,11 @@ namespace alea {
 struct PoseSearchOptions {
   std::optional<RigidTransform> initial;  ///< local frames; searched beside the generators
   std::uint64_t seed = 1;
-  std::size_t of_each_source = 8;  ///< candidates of each generator that are always refined
-  std::size_t screened = 16;       ///< others: those that the probes contradict least
-  std::size_t judged = 12;         ///< of those, judged by all points
-  std::size_t finished = 4;        ///< of those, the least contradicted, refined by all points
+  std::size_t of_yaw_sweep = 28;  ///< candidates that are refined, of each generator
+  std::size_t of_axis_sweep = 16;
+  std::size_t of_others = 8;
+  std::size_t judged = 12;   ///< of all those, judged by all points
+  std::size_t finished = 4;  ///< of those, the most promising, refined by all points
 };
 
 /// A refined pose with what speaks for and against it.

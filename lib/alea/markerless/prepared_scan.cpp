@@ -73,9 +73,10 @@ PreparedScan prepare_scan(const Cloud& scan, const PrepareOptions& options) {
   const double image_deg = scan.size() > 100000 ? 1.0 : 1.5;
   RangeImage free_space(local, Eigen::Vector3d::Zero(), image_deg * std::numbers::pi / 180);
   NeighbourIndex index(fine.positions);
+  SurfaceMap surfaces(fine, std::max(0.5, 3 * cell_m));
   return {scanner,           cell_m,           std::move(fine),
           std::move(coarse), std::move(probe), std::move(free_space),
-          upright,           std::move(index)};
+          upright,           std::move(index), std::move(surfaces)};
 }
 
 }  // namespace alea

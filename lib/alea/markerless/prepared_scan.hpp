@@ -7,6 +7,7 @@
 #include "alea/core/cloud.hpp"
 #include "alea/core/rigid_transform.hpp"
 #include "alea/markerless/range_image.hpp"
+#include "alea/markerless/surface_map.hpp"
 
 namespace alea {
 
@@ -29,6 +30,7 @@ struct PreparedScan {
   /// Turns the scan upright: the vertical as the ground shows it becomes z.
   Eigen::Matrix3d upright_from_scan = Eigen::Matrix3d::Identity();
   NeighbourIndex fine_index;
+  SurfaceMap surfaces;  ///< of `fine`, cells of 3 cell_m and 0.5 m at least
 };
 
 /// Same bits for any thread count and order of the points. Throws Error(usage) for an empty cloud.

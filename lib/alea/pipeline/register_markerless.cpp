@@ -8,6 +8,7 @@
 #include "alea/core/error.hpp"
 #include "alea/core/parallel.hpp"
 #include "alea/markerless/pose_covariance.hpp"
+#include "alea/markerless/standing_agreement.hpp"
 #include "alea/pipeline/register_by_paper.hpp"
 #include "alea/pipeline/stopwatch.hpp"
 #include "alea/transform/reference_point.hpp"
@@ -37,6 +38,17 @@ bool is_determined(const PreparedScan& fixed, const PreparedScan& moving,
              options.largest_rotation_sd_rad &&
          largest_sd(covariance->covariance.bottomRightCorner<3, 3>()) <
              options.largest_position_sd_m;
+}
+
+/// Do surfaces other than the ground agree, and enough for what contradicts the pose? Ground on
+/// ground says nothing about the place, however much of it agrees and however it undulates.
+bool has_standing(const PreparedScan& fixed, const PreparedScan& moving,
+                  const RigidTransform& pose) {
+  constexpr double least_standing = 0.005, largest_conflict_for_standing = 0.2;
+  const StandingEvidence found = standing_evidence(fixed, moving, pose, {});
+  const double conflict = (found.evidence.conflict_fixed + found.evidence.conflict_moving) / 2;
+  return found.standing >= least_standing &&
+         conflict <= largest_conflict_for_standing * found.standing;
 }
 
 /// Root mean square offset of each point of a scan from the tangent plane of its nearest neighbour
@@ -79,6 +91,7 @@ std::vector<PoseHypothesis> determined(const PreparedScan& fixed, const Prepared
   std::vector<std::uint8_t> is(hypotheses.size());
   parallel_chunks(hypotheses.size(), 1, [&](std::size_t i, std::size_t) {
     is[i] = hypotheses[i].evidence.normal_rmse_m <= largest_rmse_m &&
+            has_standing(fixed, moving, hypotheses[i].fixed_from_moving) &&
             is_determined(fixed, moving, hypotheses[i].fixed_from_moving, options);
   });
   std::vector<PoseHypothesis> kept;
