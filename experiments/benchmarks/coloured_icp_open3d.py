@@ -7,6 +7,7 @@ python3-open3d (scripts/setup peers). Both align from the identity with pairs up
 iterations; Open3D estimates its normals from the 30 nearest points, as Alea does.
 """
 
+import itertools
 import sys
 import time
 
@@ -47,45 +48,53 @@ def rmse(points, a, b):
     return float(np.sqrt((off ** 2).sum(axis=1).mean()))
 
 
+def print_cell(key, rows):
+    rows = np.array(rows)
+    share = 100 * (rows[:, :2] < 0.15).mean(axis=0)
+    print(("identical", "independent")[key[0]], key[1], key[2], len(rows), f"{share[0]:.1f} {share[1]:.1f}",
+          f"{share[0] - share[1]:+.1f}", flush=True)
+    return share[0] - share[1]
+
+
+def print_large(row):
+    print(f"20,000 points: Alea {row[4]:.3f} s, Open3D {row[5]:.3f} s, ratio {row[5] / row[4]:.2f}; "
+          f"rmse {row[0]:.5f} and {row[1]:.5f} sides", flush=True)
+
+
+def rows_of(file):
+    """(cell, or None for a large pair; one row of numbers) for each pair."""
+    while True:
+        try:
+            shift, rotation, target_kind, seconds = doubles(file, 4)
+        except EOFError:
+            return
+        board, target = cloud_of(file), cloud_of(file)
+        truth, ours = (doubles(file, 16).reshape(4, 4) for _ in range(2))
+        theirs, their_seconds, _ = aligned(board, target)
+        points = np.asarray(board.points)
+        key = None if len(points) > 1000 else (int(target_kind), int(rotation), round(100 * shift))
+        yield key, (rmse(points, ours, truth), rmse(points, theirs, truth),
+                    float(np.linalg.norm((ours - truth)[:3, 3])), float(np.linalg.norm((theirs - truth)[:3, 3])),
+                    seconds, their_seconds)
+
+
 def main():
-    cells, large = {}, []
+    differences, centres = [], []
     with open(sys.argv[1], "rb") as file:
-        while True:
-            try:
-                shift, rotation, target_kind, seconds = doubles(file, 4)
-            except EOFError:
-                break
-            board, target = cloud_of(file), cloud_of(file)
-            truth, ours = (doubles(file, 16).reshape(4, 4) for _ in range(2))
-            theirs, their_seconds, _ = aligned(board, target)
-            points = np.asarray(board.points)
-            row = (rmse(points, ours, truth), rmse(points, theirs, truth),
-                   float(np.linalg.norm((ours - truth)[:3, 3])), float(np.linalg.norm((theirs - truth)[:3, 3])),
-                   seconds, their_seconds)
-            if len(points) > 1000:
-                large.append(row)
-            else:
-                cells.setdefault((int(target_kind), int(rotation), round(100 * shift)), []).append(row)
-    differences, ours_all, theirs_all = [], [], []
-    print("target rotation_deg shift_percent n alea_percent open3d_percent difference")
-    for key, rows in cells.items():
-        rows = np.array(rows)
-        good = rows[:, :2] < 0.15
-        share = 100 * good.mean(axis=0)
-        differences.append(share[0] - share[1])
-        both = good.all(axis=1)
-        ours_all.extend(rows[both, 2])
-        theirs_all.extend(rows[both, 3])
-        print(("identical", "independent")[key[0]], key[1], key[2], len(rows), f"{share[0]:.1f} {share[1]:.1f}",
-              f"{differences[-1]:+.1f}")
+        for key, group in itertools.groupby(rows_of(file), key=lambda pair: pair[0]):
+            if key is None:
+                for _, row in group:
+                    print_large(row)
+                print("target rotation_deg shift_percent n alea_percent open3d_percent difference")
+                continue
+            rows = [row for _, row in group]
+            differences.append(print_cell(key, rows))
+            centres += [row[2:4] for row in rows if max(row[:2]) < 0.15]
+    ours, theirs = np.sqrt(np.mean(np.square(centres), axis=0))
     print(f"mean difference over {len(differences)} cells {np.mean(differences):+.2f} points (limit 2), "
           f"largest {np.abs(differences).max():.1f} (limit 12)")
-    print(f"centre error where both succeed: rms ratio Alea / Open3D "
-          f"{np.sqrt(np.mean(np.square(ours_all)) / max(np.mean(np.square(theirs_all)), 1e-30)):.3f} "
-          f"(n = {len(ours_all)}; limit 0.9 to 1.1)")
-    for row in large:
-        print(f"20,000 points: Alea {row[4]:.3f} s, Open3D {row[5]:.3f} s, ratio {row[5] / row[4]:.2f}; "
-              f"rmse {row[0]:.5f} and {row[1]:.5f} sides")
+    print(f"centre error where both succeed: rms ratio Alea / Open3D {ours / max(theirs, 1e-15):.3f} "
+          f"(n = {len(centres)}; limit 0.9 to 1.1)")
 
 
 if __name__ == "__main__":

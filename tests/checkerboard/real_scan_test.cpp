@@ -4,19 +4,27 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "alea/checkerboard/measurement.hpp"
+#include "alea/checkerboard/board_finder.hpp"
 #include "alea/io/cloud_file.hpp"
 
 namespace alea {
 namespace {
 
+constexpr const char* needs_frames =
+    "set ALEA_DATASETS to the folder that holds checkerboard-pandar64";
+
+/// Empty where they are not there.
+std::filesystem::path frames_folder() {
+  const char* folder = std::getenv("ALEA_DATASETS");
+  if (folder == nullptr) return {};
+  const auto frames = std::filesystem::path(folder) / "checkerboard-pandar64";
+  return std::filesystem::exists(frames) ? frames : std::filesystem::path{};
+}
+
 // Five frames of a still board, 64 rings, 18 x 8 cells of 50 mm at 3.4 m.
 TEST(RealScan, FiveFramesAgreeOnCentreNormalAndCell) {
-  const char* folder = std::getenv("ALEA_DATASETS");
-  const std::filesystem::path frames =
-      std::filesystem::path(folder == nullptr ? "" : folder) / "checkerboard-pandar64";
-  if (folder == nullptr || !std::filesystem::exists(frames))
-    GTEST_SKIP() << "set ALEA_DATASETS to the folder that holds checkerboard-pandar64";
+  const std::filesystem::path frames = frames_folder();
+  if (frames.empty()) GTEST_SKIP() << needs_frames;
   BoardOptions options;
   options.board = {18, 8, 0.05};
   std::vector<BoardMeasurement> measured;
@@ -32,6 +40,18 @@ TEST(RealScan, FiveFramesAgreeOnCentreNormalAndCell) {
     EXPECT_NEAR(one.cell_m, 0.05, 0.0005);
     EXPECT_NEAR(one.cell_m, measured[0].cell_m, 1e-4);
   }
+}
+
+// Walls whose intensities change from ring to ring correlate with the pattern too.
+TEST(RealScan, TheBoardAndNothingElseIsFoundInAWholeFrame) {
+  const std::filesystem::path frames = frames_folder();
+  if (frames.empty()) GTEST_SKIP() << needs_frames;
+  BoardOptions options;
+  options.board = {18, 8, 0.05};
+  const auto found = find_boards(read_cloud((frames / "frame-03-449.pcd").string()), options);
+  ASSERT_TRUE(found) << found.refusal().message;
+  ASSERT_EQ(found->size(), 1u);
+  EXPECT_LT((found->front().centre_m - Eigen::Vector3d(3.3294, 0.6760, -0.3365)).norm(), 3e-3);
 }
 
 }  // namespace

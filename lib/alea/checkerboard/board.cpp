@@ -46,7 +46,12 @@ Cloud board_template(const BoardSpec& board, int points_along_side) {
 }
 
 Cloud with_intensity(Cloud cloud) {
-  if (cloud.has_intensity()) return cloud;
+  if (cloud.has_intensity()) {
+    // Some programs write an intensity of zero beside colours.
+    const auto [least, most] = std::minmax_element(cloud.intensity.begin(), cloud.intensity.end());
+    if (cloud.colours.empty() || *least < *most) return cloud;
+    cloud.intensity.clear();
+  }
   if (cloud.colours.empty())
     throw input_error(
         "the cloud has no intensity and no colour; a checkerboard cannot be read from it");

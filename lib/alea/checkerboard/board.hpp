@@ -37,7 +37,8 @@ int pattern_sign(const BoardSpec& board, const Eigen::Vector2d& place_m);
 /// many per metre along the rows: intensity 0 on dark and 1 on light cells, normals +z, z = 0.
 Cloud board_template(const BoardSpec& board, int points_along_side);
 
-/// The cloud with an intensity for each point: its own, else the mean of its colours in [0, 1].
+/// The cloud with an intensity for each point: its own, unless all are equal and it has colours;
+/// else the mean of its colours in [0, 1].
 /// Throws Error(input) where it has neither.
 Cloud with_intensity(Cloud cloud);
 

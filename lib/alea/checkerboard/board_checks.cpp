@@ -109,7 +109,7 @@ Agreement agreement_of(const BoardSpec& board, std::span<const Eigen::Vector2d> 
   const bool small = board.few_cells();
   const double n = static_cast<double>(std::max<std::size_t>(fit.points, 1));
   // Among all poses that the search tries, noise alone reaches about 4.3 / sqrt(n).
-  agreement.least_correlation = std::max(small ? 0.5 : 0.15, 6 / std::sqrt(n));
+  agreement.least_correlation = std::max(small ? 0.5 : 0.35, 6 / std::sqrt(n));
   agreement.least_right = (small ? 1.0 : 0.75) * agreement.pairs.seen;
   agreement.seen_enough = 2 * agreement.pairs.seen >= (small ? 2 : 1) * agreement.pairs.all;
   return agreement;
@@ -167,6 +167,7 @@ BoardExtent board_extent(const BoardSpec& board, std::span<const Eigen::Vector2d
     for (const double side : {-1.0, 1.0}) {
       const Profile profile = profile_of(board, places_m, intensity, fit, axis, side, spacing_m);
       extent.size_m[axis] += profile.edge_m;
+      extent.longer_half_m[axis] = std::max(extent.longer_half_m[axis], profile.edge_m);
       if (profile.beyond < -0.55 && profile.beyond_weight > 8) extent.continues = true;
     }
   }
@@ -185,13 +186,16 @@ std::optional<Refusal> check_size(const BoardSpec& board, std::span<const Eigen:
                     board.columns, board.rows, board.cell_m)};
   const Eigen::Vector2d expected(board.side_m(), board.height_m());
   for (int axis = 0; axis < 2; ++axis) {
-    const double larger_m = extent.size_m[axis] - expected[axis];
+    double larger_m = extent.size_m[axis] - expected[axis];
+    // The crossing of a 2 x 2 board is its middle, whatever hides a part: one half shows the size.
+    if (larger_m < 0 && board.cells() == 4)
+      larger_m = 2 * extent.longer_half_m[axis] - expected[axis];
     // Noise of the places spreads points beyond the outline; it shows as blur.
     const double spread_m = larger_m > 0 ? 3 * fit.blur_m.maxCoeff() : 0;
     if (std::abs(larger_m) <= 0.15 * 2 * board.cell_m + spacing_m + spread_m) continue;
     return Refusal{RefusalCode::size_mismatch,
                    fmt::format("a pattern like it ends after {:.4f} x {:.4f} m instead of {:.4f} x "
-                               "{:.4f} m; check --side and --squares",
+                               "{:.4f} m; check --side and --squares, and whether a part is hidden",
                                extent.size_m.x(), extent.size_m.y(), expected.x(), expected.y())};
   }
   return std::nullopt;

@@ -41,7 +41,7 @@ struct Grid {
 
 Grid make_grid(const BoardSpec& board, const BoardSearchOptions& options) {
   Grid grid;
-  grid.cell_px = board.columns <= 3 ? 8 : board.columns == 4 ? 6 : 5;
+  grid.cell_px = board.columns <= 3 ? 8 : board.columns == 4 ? 6 : board.columns <= 8 ? 5 : 3;
   grid.pixel_m = board.cell_m / grid.cell_px;
   const double half_diagonal_m = 0.5 * std::hypot(board.side_m(), board.height_m());
   const double reach_m = options.radius_m + 0.5 * board.side_m() + grid.pixel_m;

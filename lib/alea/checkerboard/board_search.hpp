@@ -60,10 +60,10 @@ struct BoardSearchOptions {
 };
 
 /// Every centre within the radius and every angle at which the pattern differs, on a raster of an
-/// eighth of a cell (four columns: a sixth, more: a fifth) and steps of 3 deg or finer; best first,
-/// at least half the shorter side apart, none of less than 0.3 times the best gain. Each pose costs
-/// as many additions as the board has columns and rows, because a checkerboard is the product of
-/// two square waves. Intensities are clipped to their central 96 %.
+/// eighth of a cell (four columns: a sixth, to eight: a fifth, more: a third) and steps of 3 deg or
+/// finer; best first, at least half the shorter side apart, none of less than 0.3 times the best
+/// gain. Each pose costs as many additions as the board has columns and rows, because a
+/// checkerboard is the product of two square waves. Intensities are clipped to their central 96 %.
 std::vector<BoardCandidate> search_board(const BoardSpec& board,
                                          std::span<const Eigen::Vector2d> places_m,
                                          std::span<const float> intensity,

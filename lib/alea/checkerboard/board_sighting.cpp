@@ -48,7 +48,8 @@ Sighting sight(const BoardPoints& points, const RoughPlane& rough, const BoardOp
   sighting.places = places_on(sighting.plane, sighting.points);
   BoardSearchOptions search;
   search.about_m = -(sighting.plane.axes.transpose() * sighting.plane.anchor);
-  search.radius_m = options.search_sides * options.board.side_m();
+  // A little more, so that a centre just as far as it may lie is not cut off.
+  search.radius_m = (options.search_sides + 0.05) * options.board.side_m();
   sighting.candidates =
       search_board(options.board, sighting.places, sighting.points.intensity, search);
   return sighting;

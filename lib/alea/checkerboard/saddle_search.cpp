@@ -24,9 +24,14 @@ std::uint64_t packed(const Eigen::Array3i& cell) {
 }
 
 /// Share of the variation of intensities over the angle about a cube, on the plane through the
-/// cubes near it, that a second harmonic explains.
-double second_harmonic(const std::vector<const CubeIndex::Cube*>& near,
-                       const CubeIndex::Cube& centre, double radius_m) {
+/// cubes near it, that a second harmonic explains, and its axis.
+struct SecondHarmonic {
+  double strength = 0;
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();
+};
+
+SecondHarmonic second_harmonic(const std::vector<const CubeIndex::Cube*>& near,
+                               const CubeIndex::Cube& centre, double radius_m) {
   const double n = static_cast<double>(near.size());
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
@@ -50,8 +55,10 @@ double second_harmonic(const std::vector<const CubeIndex::Cube*>& near,
     variation += value * value;
     used += 1;
   }
-  if (used < 8 || !(variation > 0)) return 0;
-  return 2 * (cosine * cosine + sine * sine) / (used * variation);
+  if (used < 8 || !(variation > 0)) return {};
+  const double angle = 0.5 * std::atan2(sine, cosine);
+  return {2 * (cosine * cosine + sine * sine) / (used * variation),
+          basis * Eigen::Vector2d(std::cos(angle), std::sin(angle))};
 }
 
 /// Sums over the cubes about a place, for a bound on what a second harmonic can explain.
@@ -100,13 +107,14 @@ Saddle saddle_at(const std::vector<CubeIndex::Cube>& cubes,
     high = std::max(high, cube.intensity);
     if (squared >= 0.1 * radius2) outer.add(off, cube.intensity - centre.intensity);
   }
-  Saddle saddle{centre.mean, 0, high - low};
+  Saddle saddle{centre.mean, 0, high - low, Eigen::Vector3d::UnitX()};
   // Off the surface the offsets of the bound differ a little from those of the harmonic.
   if (near.size() < 12 || outer.n < 8 || saddle.contrast < limits.contrast ||
       outer.most_strength() < 0.6 * limits.strength)
     return saddle;
-  saddle.strength = second_harmonic(near, centre, limits.radius_m);
-  if (saddle.strength < limits.strength) saddle.strength = 0;
+  const SecondHarmonic harmonic = second_harmonic(near, centre, limits.radius_m);
+  saddle.axis = harmonic.axis;
+  if (harmonic.strength >= limits.strength) saddle.strength = harmonic.strength;
   return saddle;
 }
 

@@ -55,6 +55,9 @@ struct Saddle {
   Eigen::Vector3d place_m = Eigen::Vector3d::Zero();
   double strength = 0;  ///< share of the intensities' variation that the second harmonic explains
   double contrast = 0;
+  /// Unit, on the surface: the intensities along it lie above or below those across it. From one
+  /// corner of a board to the next it turns by a quarter.
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();
 };
 
 /// Places where the intensities within `radius_m` on the surface have a second harmonic of at least

@@ -24,6 +24,13 @@ void require_arrays(const IcpTarget::Data& target, const IcpPoints& source,
     throw usage_error("icp: normal_angle_rad needs normals of both clouds");
 }
 
+/// A turn about the mean of the pairs and a shift: the mean goes where the linear system sends it,
+/// however large the turn. A screw (the exponential of both at once) would turn its way by half.
+RigidTransform moved_about(const Eigen::Vector3d& mean, const Vector6d& delta) {
+  const Eigen::Matrix3d rotation = rotation_exp(delta.head<3>());
+  return {rotation, mean - rotation * mean + delta.tail<3>()};
+}
+
 /// One alignment in the clouds' own local frames.
 class Solver {
  public:
@@ -96,7 +103,7 @@ class Solver {
   void advance(const IcpSystem& system, const IcpStep& step, IcpResult& result) {
     const RigidTransform after_from_before = is_closed_form()
                                                  ? closed_form_step(target_, pairs_, options_)
-                                                 : perturb_left({}, step.delta, system.about);
+                                                 : moved_about(system.about, step.delta);
     turn_ = rotation_angle_rad(after_from_before.rotation);
     shift_ = (after_from_before * system.about - system.about).norm();
     result.target_from_source = after_from_before * result.target_from_source;

@@ -53,8 +53,8 @@ struct IcpOptions {
   /// Offset and gain of the source's intensities, so that those of the pairs have the mean and the
   /// standard deviation of the target's. Park et al. have neither.
   bool match_intensity = false;
-  std::size_t gradient_neighbours = 30;
-  double gradient_radius_m = 0;  ///< 0: twice max_distance_m
+  std::size_t gradient_neighbours = 30;  ///< the point and those as far as the last one included
+  double gradient_radius_m = 0;          ///< 0: twice max_distance_m
 };
 
 enum class IcpStop {

@@ -49,6 +49,19 @@ Eigen::Vector3d tangent_gradient(const IcpPoints& points, std::uint32_t at,
   return basis * slope;
 }
 
+/// The nearest points of a point, and all others that are as far as the last of them: on a raster
+/// the last ring taken in part would tilt every gradient the same way, and the board drifts.
+std::vector<Neighbour> whole_rings(const NeighbourIndex& index, const Eigen::Vector3d& point,
+                                   std::size_t count) {
+  constexpr double rounding = 1 + 1e-9;
+  std::vector<Neighbour> found = index.nearest(point, count + 1);
+  if (found.size() <= count) return found;
+  const double last_m2 = found[count - 1].squared_distance_m2 * rounding;
+  if (found[count].squared_distance_m2 <= last_m2) return index.within(point, std::sqrt(last_m2));
+  found.pop_back();
+  return found;
+}
+
 std::vector<Eigen::Vector3d> gradients_of(const IcpTarget::Data& target,
                                           const IcpOptions& options) {
   const double radius_m =
@@ -57,7 +70,7 @@ std::vector<Eigen::Vector3d> gradients_of(const IcpTarget::Data& target,
   parallel_chunks(gradients.size(), 512, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto neighbours =
-          target.index->nearest(target.points.positions[i], options.gradient_neighbours);
+          whole_rings(*target.index, target.points.positions[i], options.gradient_neighbours);
       gradients[i] =
           tangent_gradient(target.points, static_cast<std::uint32_t>(i), neighbours, radius_m);
     }
