@@ -10,6 +10,7 @@
 #include "alea/core/error.hpp"
 #include "alea/core/parallel.hpp"
 #include "alea/simulate/board_sensor.hpp"
+#include "tests/checkerboard/printed_board.hpp"
 
 namespace alea {
 namespace {
@@ -22,20 +23,6 @@ RigidTransform facing(double range_m, const Eigen::Vector3d& turn_rad = {0, 0, 0
                   rotation_exp({0, 0, turn_rad.z()});
   pose.translation = {range_m, 0.2, -0.1};
   return pose;
-}
-
-Checkerboard model(const BoardSpec& board) {
-  Checkerboard out;
-  out.columns = board.columns;
-  out.rows = board.rows;
-  out.cell_m = board.cell_m;
-  return out;
-}
-
-BoardOptions options_for(const BoardSpec& board) {
-  BoardOptions options;
-  options.board = board;
-  return options;
 }
 
 Cloud survey_scan(const Checkerboard& board, const RigidTransform& pose, std::uint64_t trial = 1) {
@@ -53,7 +40,7 @@ TEST(BoardLikelihood, FindsTheCentreNearItsBoundWhereverItIsLookedFor) {
     const Eigen::Vector3d near =
         pose.translation + 0.08 * Eigen::Vector3d(stream.normal(), stream.normal(), 0).normalized();
     const auto result =
-        measure_by_likelihood(survey_scan(model(board), pose, t), near, options_for(board));
+        measure_by_likelihood(survey_scan(printed(board), pose, t), near, options_for(board));
     ASSERT_TRUE(result) << result.refusal().message;
     const Eigen::Vector3d error = result->centre_m - pose.translation;
     squares += error.squaredNorm();
@@ -70,8 +57,8 @@ TEST(BoardLikelihood, FindsTheCentreNearItsBoundWhereverItIsLookedFor) {
 TEST(BoardLikelihood, MeasuresTheCellOfABoardOfManyCells) {
   const BoardSpec board{6, 5, 0.04};
   const RigidTransform pose = facing(8, {0.2, 0.1, 0.4});
-  const auto result =
-      measure_by_likelihood(survey_scan(model(board), pose), pose.translation, options_for(board));
+  const auto result = measure_by_likelihood(survey_scan(printed(board), pose), pose.translation,
+                                            options_for(board));
   ASSERT_TRUE(result) << result.refusal().message;
   EXPECT_LT((result->centre_m - pose.translation).norm(), 4e-4);
   EXPECT_TRUE(result->cell_estimated);
@@ -84,7 +71,7 @@ TEST(BoardLikelihood, MeasuresTheCellOfABoardOfManyCells) {
 TEST(BoardLikelihood, IgnoresAWallBehindAndAPlateAround) {
   const BoardSpec board;
   for (const double plate : {0.0, 0.5, 0.9}) {
-    Checkerboard in_wall = model(board);
+    Checkerboard in_wall = printed(board);
     in_wall.margin_m = 0.2;
     in_wall.plate_intensity = plate;
     const RigidTransform pose = facing(10, {0.1, -0.2, 0.7});
@@ -98,7 +85,7 @@ TEST(BoardLikelihood, IgnoresAWallBehindAndAPlateAround) {
 TEST(BoardLikelihood, GivesTheSameBitsForAnyOrderAndThreadCount) {
   const BoardSpec board;
   const RigidTransform pose = facing(10, {0.2, 0.1, 0.3});
-  const Cloud cloud = survey_scan(model(board), pose);
+  const Cloud cloud = survey_scan(printed(board), pose);
   std::vector<std::uint32_t> order(cloud.size());
   for (std::uint32_t i = 0; i < order.size(); ++i)
     order[i] = static_cast<std::uint32_t>((i * 7919ull + 13) % order.size());
@@ -121,7 +108,7 @@ TEST(BoardLikelihood, RefusesWhatIsNoBoardOfThisSize) {
         measure_by_likelihood(survey_scan(scene, pose), pose.translation, options_for(asked));
     return result ? std::string("measured") : std::string(to_string(result.refusal().code));
   };
-  Checkerboard blank = model(board), faint = model(board);
+  Checkerboard blank = printed(board), faint = printed(board);
   blank.dark_intensity = blank.light_intensity = blank.plate_intensity = 0.6;
   faint.dark_intensity = 0.50;
   faint.light_intensity = 0.51;
@@ -129,14 +116,14 @@ TEST(BoardLikelihood, RefusesWhatIsNoBoardOfThisSize) {
   EXPECT_EQ(code_of(faint, board), "no_pattern");
   for (const double factor : {1.3, 1 / 1.3}) {
     for (const double margin : {0.0, 0.1}) {
-      Checkerboard scene = model(board);
+      Checkerboard scene = printed(board);
       scene.margin_m = margin;
       EXPECT_EQ(code_of(scene, {2, 2, factor * board.cell_m}), "size_mismatch")
           << factor << " " << margin;
     }
   }
-  EXPECT_EQ(code_of(model({4, 4, 0.0375}), {2, 2, 0.0375}), "size_mismatch");
-  Cloud three = subset(survey_scan(model(board), pose), {0, 900, 1800});
+  EXPECT_EQ(code_of(printed({4, 4, 0.0375}), {2, 2, 0.0375}), "size_mismatch");
+  Cloud three = subset(survey_scan(printed(board), pose), {0, 900, 1800});
   const auto few = measure_by_likelihood(three, pose.translation, options_for(board));
   ASSERT_FALSE(few);
   EXPECT_EQ(few.refusal().code, RefusalCode::too_few_points);
@@ -153,7 +140,7 @@ TEST(ColouredBoard, ThePublishedPipelineFindsTheCentreAndOtsuMatters) {
   double all = 0, raw = 0;
   for (int t = 0; t < 4; ++t) {
     const RigidTransform pose = facing(10, {0.1 * t, -0.1, 0.1});
-    const Cloud cloud = survey_scan(model(board), pose, t);
+    const Cloud cloud = survey_scan(printed(board), pose, t);
     ColouredBoardOptions steps;
     const auto error = [&]() {
       const auto result = measure_by_coloured_icp(
@@ -176,11 +163,11 @@ TEST(BoardFinder, FindsEveryBoardAmongOtherThings) {
     RigidTransform pose = facing(10, {0.1, 0.1 * k, 0.3 * k});
     pose.translation += Eigen::Vector3d(0.3 * k, 0.9 * k, 0.4 * (k % 2));
     centres.push_back(pose.translation);
-    const Cloud one = survey_scan(model(board), pose, 10 + k);
+    const Cloud one = survey_scan(printed(board), pose, 10 + k);
     scene.positions.insert(scene.positions.end(), one.positions.begin(), one.positions.end());
     scene.intensity.insert(scene.intensity.end(), one.intensity.begin(), one.intensity.end());
   }
-  Checkerboard plain = model(board);  // a plate without pattern
+  Checkerboard plain = printed(board);  // a plate without pattern
   plain.dark_intensity = plain.light_intensity = 0.9;
   const Cloud blank = survey_scan(plain, facing(12), 20);
   scene.positions.insert(scene.positions.end(), blank.positions.begin(), blank.positions.end());

@@ -2,11 +2,12 @@
 
 #include "alea/checkerboard/board_finder.hpp"
 #include "alea/simulate/board_sensor.hpp"
+#include "tests/checkerboard/printed_board.hpp"
 
 namespace alea {
 namespace {
 
-const RigidTransform facing = [] {
+const RigidTransform board_pose = [] {
   RigidTransform pose;
   pose.rotation << 0, 0, -1, -1, 0, 0, 0, 1, 0;
   pose.rotation = pose.rotation * rotation_exp({0.2, -0.1, 0}) * rotation_exp({0, 0, 0.4});
@@ -14,29 +15,15 @@ const RigidTransform facing = [] {
   return pose;
 }();
 
-Checkerboard model(const BoardSpec& board) {
-  Checkerboard out;
-  out.columns = board.columns;
-  out.rows = board.rows;
-  out.cell_m = board.cell_m;
-  return out;
-}
-
-BoardOptions options_for(const BoardSpec& board) {
-  BoardOptions options;
-  options.board = board;
-  return options;
-}
-
 Cloud scan(const Checkerboard& board) {
-  return scan_board(board, facing, survey_sensor(), {41, 0, 1, 0, Purpose::test});
+  return scan_board(board, board_pose, survey_sensor(), {41, 0, 1, 0, Purpose::test});
 }
 
 /// Without the points whose x on the board is above `most_m`.
 Cloud hidden_beyond(double most_m, const Cloud& cloud) {
   std::vector<std::uint32_t> seen;
   for (std::uint32_t i = 0; i < cloud.size(); ++i)
-    if ((facing.inverse() * cloud.positions[i]).x() <= most_m) seen.push_back(i);
+    if ((board_pose.inverse() * cloud.positions[i]).x() <= most_m) seen.push_back(i);
   Cloud rest = subset(cloud, seen);
   rest.scanner_position = cloud.scanner_position;
   return rest;
@@ -44,13 +31,13 @@ Cloud hidden_beyond(double most_m, const Cloud& cloud) {
 
 TEST(BoardInTheWorld, TwoByTwoCellsArePartlyHidden) {
   const BoardSpec board{2, 2, 0.15};
-  const Cloud cloud = hidden_beyond(0.06, scan(model(board)));
-  const auto result = measure_by_likelihood(cloud, facing.translation, options_for(board));
+  const Cloud cloud = hidden_beyond(0.06, scan(printed(board)));
+  const auto result = measure_by_likelihood(cloud, board_pose.translation, options_for(board));
   ASSERT_TRUE(result) << result.refusal().message;
-  EXPECT_LT((result->centre_m - facing.translation).norm(), 5e-4);
+  EXPECT_LT((result->centre_m - board_pose.translation).norm(), 5e-4);
   // The whole board of that width is another one.
   const auto smaller =
-      measure_by_likelihood(scan(model({2, 2, 0.1})), facing.translation, options_for(board));
+      measure_by_likelihood(scan(printed({2, 2, 0.1})), board_pose.translation, options_for(board));
   ASSERT_FALSE(smaller);
   EXPECT_EQ(smaller.refusal().code, RefusalCode::size_mismatch);
 }
@@ -58,37 +45,37 @@ TEST(BoardInTheWorld, TwoByTwoCellsArePartlyHidden) {
 // Of many cells any column may be the last one that is seen.
 TEST(BoardInTheWorld, ManyCellsPartlyHiddenAreRefused) {
   const BoardSpec board{8, 6, 0.06};
-  const Cloud cloud = hidden_beyond(0.12, scan(model(board)));
-  EXPECT_FALSE(measure_by_likelihood(cloud, facing.translation, options_for(board)));
+  const Cloud cloud = hidden_beyond(0.12, scan(printed(board)));
+  EXPECT_FALSE(measure_by_likelihood(cloud, board_pose.translation, options_for(board)));
 }
 
 TEST(BoardInTheWorld, IsFoundWhereTheCentreIsJustAsFarAsItMayBe) {
   const BoardSpec board{8, 6, 0.06};
-  const Cloud cloud = scan(model(board));
+  const Cloud cloud = scan(printed(board));
   for (const double sign : {-1.0, 1.0}) {
-    const Eigen::Vector3d near = facing * Eigen::Vector3d(sign * board.side_m(), 0, 0);
+    const Eigen::Vector3d near = board_pose * Eigen::Vector3d(sign * board.side_m(), 0, 0);
     const auto result = measure_by_likelihood(cloud, near, options_for(board));
     ASSERT_TRUE(result) << result.refusal().message;
-    EXPECT_LT((result->centre_m - facing.translation).norm(), 3e-4);
+    EXPECT_LT((result->centre_m - board_pose.translation).norm(), 3e-4);
   }
 }
 
 TEST(BoardInTheWorld, ColoursCountWhereAllIntensitiesAreEqual) {
-  Cloud cloud = scan(model({2, 2, 0.15}));
+  Cloud cloud = scan(printed({2, 2, 0.15}));
   for (const float value : cloud.intensity) {
     const auto level = static_cast<std::uint16_t>(60000 * std::clamp(value, 0.0f, 1.0f));
     cloud.colours.push_back({level, level, level});
   }
   cloud.intensity.assign(cloud.size(), 0);
-  const auto result =
-      measure_by_likelihood(with_intensity(cloud), facing.translation, options_for({2, 2, 0.15}));
+  const auto result = measure_by_likelihood(with_intensity(cloud), board_pose.translation,
+                                            options_for({2, 2, 0.15}));
   ASSERT_TRUE(result) << result.refusal().message;
-  EXPECT_LT((result->centre_m - facing.translation).norm(), 5e-4);
+  EXPECT_LT((result->centre_m - board_pose.translation).norm(), 5e-4);
 }
 
 TEST(BoardInTheWorld, ManyCellsAreFoundWithoutAPlaceAndNothingElse) {
   const BoardSpec board{8, 6, 0.06};
-  Cloud cloud = scan(model(board));
+  Cloud cloud = scan(printed(board));
   RandomStream noise({42, 0, 0, 0, Purpose::test});
   for (int i = 0; i < 150; ++i)  // a wall whose intensities are noise alone
     for (int j = 0; j < 150; ++j) {
@@ -98,7 +85,7 @@ TEST(BoardInTheWorld, ManyCellsAreFoundWithoutAPlaceAndNothingElse) {
   const auto found = find_boards(cloud, options_for(board));
   ASSERT_TRUE(found) << found.refusal().message;
   ASSERT_EQ(found->size(), 1u);
-  EXPECT_LT((found->front().centre_m - facing.translation).norm(), 3e-4);
+  EXPECT_LT((found->front().centre_m - board_pose.translation).norm(), 3e-4);
 }
 
 }  // namespace
