@@ -1,11 +1,13 @@
 #include "alea/cloud/neighbours.hpp"
 
 #include <algorithm>
+#include <array>
+#include <concepts>
 
 namespace alea {
 namespace {
 
-constexpr std::size_t leaf_size = 12;
+constexpr std::size_t leaf_size = 18;
 
 // Among the collected neighbours `index` is the place in the order, so that ties do not depend on
 // the order of the cloud.
@@ -46,9 +48,8 @@ struct Within {
   void add(const Neighbour& neighbour) { found.push_back(neighbour); }
 };
 
-/// Descends to the leaf of the point, then to every node that may hold a nearer one. `offsets_m`:
-/// from the point to the node's box along each axis; `squared` is their sum of squares (Arya and
-/// Mount 1993, Algorithms for fast vector quantization, DCC '93).
+/// Descends to the leaf of the point, then to every node that may hold a nearer one, the last that
+/// was passed by first (Arya and Mount 1993, Algorithms for fast vector quantization, DCC '93).
 template <typename Collector>
 class Search {
  public:
@@ -56,31 +57,76 @@ class Search {
       : order_(order), point_(point), collector_(collector) {}
 
   void run() {
-    if (!order_.points.empty()) visit(0, 0, 0.0);
+    if (order_.points.empty()) return;
+    Node node{{}, 0, 0, 0};
+    do {
+      while (node.level < order_.levels) to_nearer_half(node);
+      scan(order_.first(node.level, node.place), order_.first(node.level, node.place + 1));
+    } while (take_open(node));
   }
 
  private:
-  void visit(int level, std::size_t node, double squared) {
-    if (level == order_.levels) {
-      scan(order_.first(level, node), order_.first(level, node + 1));
-      return;
-    }
-    const KdSplit& split = order_.splits[(std::size_t{1} << level) - 1 + node];
+  /// `offsets_m`: from the point to the node's box along each axis; `squared_m2`: their sum of
+  /// squares. Without initial values: a query does not clear what it will not use.
+  struct Node {
+    std::array<double, 3> offsets_m;
+    double squared_m2;
+    std::size_t place;  ///< in its level
+    int level;
+  };
+
+  bool may_hold(const Node& node) const {
+    return node.squared_m2 * (1 - 1e-14) <= collector_.limit();
+  }
+
+  /// To the half that the point is in or nearer to; the other one is left open.
+  void to_nearer_half(Node& node) {
+    const KdSplit& split = order_.splits[(std::size_t{1} << node.level) - 1 + node.place];
     const double value = point_[split.axis];
     const double above_low = value - split.low_m, below_high = split.high_m - value;
     const bool left_first = above_low < below_high;
-    visit(level + 1, 2 * node + (left_first ? 0 : 1), squared);
     const double offset = left_first ? below_high : above_low;
-    const double old = offsets_m_[split.axis];
+    Node& other = open_[open_count_];
+    other = node;
+    other.level = ++node.level;
+    other.place = 2 * node.place + (left_first ? 1 : 0);
+    node.place = 2 * node.place + (left_first ? 0 : 1);
     // Inside the gap between the halves the far half may be nearer than the node's box.
-    const double farther = offset > 0 ? squared - old * old + offset * offset : squared;
-    if (!(farther * (1 - 1e-14) <= collector_.limit())) return;
-    if (offset > 0) offsets_m_[split.axis] = offset;
-    visit(level + 1, 2 * node + (left_first ? 1 : 0), farther);
-    offsets_m_[split.axis] = old;
+    if (offset > 0) {
+      double& old = other.offsets_m[static_cast<std::size_t>(split.axis)];
+      other.squared_m2 += offset * offset - old * old;
+      old = offset;
+    }
+    if (may_hold(other)) ++open_count_;
   }
 
+  bool take_open(Node& node) {
+    while (open_count_ > 0)
+      if (may_hold(open_[--open_count_])) {
+        node = open_[open_count_];
+        return true;
+      }
+    return false;
+  }
+
+  /// Those within the limit are picked without a branch, which would be foretold wrongly half the
+  /// time.
   void scan(std::size_t first, std::size_t last) {
+    const double limit = collector_.limit();
+    const Eigen::Vector3d point = point_;
+    const KdPoint* const points = order_.points.data();
+    std::array<Neighbour, leaf_size> within;
+    std::size_t count = 0;
+    for (std::size_t place = first; place < last; ++place) {
+      const double squared = (points[place].position - point).squaredNorm();
+      within[count] = {static_cast<std::uint32_t>(place), squared};
+      count += squared <= limit ? 1 : 0;
+    }
+    for (std::size_t i = 0; i < count; ++i) collector_.add(within[i]);
+  }
+
+  /// The limit falls with most points that it lets in: few are.
+  void scan(std::size_t first, std::size_t last) requires std::same_as<Collector, NearestOne> {
     for (std::size_t place = first; place < last; ++place) {
       const double squared = (order_.points[place].position - point_).squaredNorm();
       if (squared <= collector_.limit())
@@ -91,7 +137,8 @@ class Search {
   const KdOrder& order_;
   const Eigen::Vector3d& point_;
   Collector& collector_;
-  Eigen::Vector3d offsets_m_ = Eigen::Vector3d::Zero();
+  std::array<Node, 33> open_;  ///< at most one for each level of 2^32 points
+  std::size_t open_count_ = 0;
 };
 
 }  // namespace
