@@ -97,14 +97,23 @@ bool less_contradicted(const PoseHypothesis& a, const PoseHypothesis& b) {
   return a.evidence.conflict_ratio() < b.evidence.conflict_ratio();
 }
 
-/// The first of each cluster of near poses.
+/// Does one describe the common surfaces better than the other, a pose near it? A loose fit may
+/// touch a little more of the other scan.
+bool fits_better(const PoseEvidence& one, const PoseEvidence& other) {
+  return one.normal_rmse_m < other.normal_rmse_m && one.overlap() > 0.9 * other.overlap();
+}
+
+/// Of each cluster of near poses the one that fits best, in the place of its first.
 std::vector<PoseHypothesis> distinct_poses(const std::vector<PoseHypothesis>& hypotheses) {
   std::vector<PoseHypothesis> kept;
   for (const PoseHypothesis& hypothesis : hypotheses) {
-    const bool known = std::any_of(kept.begin(), kept.end(), [&](const PoseHypothesis& other) {
+    const auto known = std::find_if(kept.begin(), kept.end(), [&](const PoseHypothesis& other) {
       return is_near(other.fixed_from_moving, hypothesis.fixed_from_moving, 2 * deg, 0.3);
     });
-    if (!known) kept.push_back(hypothesis);
+    if (known == kept.end())
+      kept.push_back(hypothesis);
+    else if (fits_better(hypothesis.evidence, known->evidence))
+      *known = hypothesis;
   }
   return kept;
 }
@@ -151,6 +160,25 @@ std::vector<PoseHypothesis> refine_finely(const PreparedScan& fixed, const Prepa
   return distinct_poses(hypotheses);
 }
 
+/// By all points, to the end: under Tukey's weights at once, and after a trimmed step. The weights
+/// take their scale from the ground, which is most of what two scans share, and shut out the walls
+/// that would correct a pose 1 deg off; trimmed pairs keep them.
+PoseHypothesis refine_fully(const PreparedScan& fixed, const PreparedScan& moving,
+                            const IcpTarget& target, double cell_m, const PoseHypothesis& start) {
+  const IcpOptions weighted = gated(1.2 * cell_m, 50, RobustKernel::tukey);
+  const IcpOptions trimmed = gated(1.2 * cell_m, 15, RobustKernel::none);
+  const auto finish = [&](const RigidTransform& from) {
+    return refined(fixed, moving, target, moving.fine, weighted, from).hypothesis;
+  };
+  const RigidTransform near =
+      icp(target, moving.fine, start.fixed_from_moving, trimmed).target_from_source;
+  PoseHypothesis best = finish(start.fixed_from_moving);
+  const PoseHypothesis other = finish(near);
+  if (fits_better(other.evidence, best.evidence)) best = other;
+  best.source = start.source;
+  return best;
+}
+
 }  // namespace
 
 std::vector<PoseHypothesis> search_pose(const PreparedScan& fixed, const PreparedScan& moving,
@@ -158,17 +186,12 @@ std::vector<PoseHypothesis> search_pose(const PreparedScan& fixed, const Prepare
   std::vector<PoseCandidate> candidates = all_candidates(fixed, moving, options);
   candidates = refine_coarsely(fixed, moving, std::move(candidates), options.judged);
   const double cell_m = std::max(fixed.cell_m, moving.cell_m);
-  const IcpOptions last = gated(1.2 * cell_m, 25, RobustKernel::tukey);
-  const IcpTarget target(fixed.fine, last);
+  const IcpTarget target(fixed.fine, gated(1.2 * cell_m, 1, RobustKernel::tukey));
   std::vector<PoseHypothesis> hypotheses = refine_finely(fixed, moving, target, candidates, cell_m);
-  parallel_chunks(
-      std::min(hypotheses.size(), options.finished), 1, [&](std::size_t i, std::size_t) {
-        PoseHypothesis& hypothesis = hypotheses[i];
-        const CandidateSource source = hypothesis.source;
-        hypothesis = refined(fixed, moving, target, moving.fine, last, hypothesis.fixed_from_moving)
-                         .hypothesis;
-        hypothesis.source = source;
-      });
+  // All of them: what follows may drop the most promising and take any other.
+  parallel_chunks(hypotheses.size(), 1, [&](std::size_t i, std::size_t) {
+    hypotheses[i] = refine_fully(fixed, moving, target, cell_m, hypotheses[i]);
+  });
   std::stable_sort(hypotheses.begin(), hypotheses.end(), less_contradicted);
   return distinct_poses(hypotheses);
 }

@@ -16,8 +16,7 @@ struct PoseSearchOptions {
   std::size_t of_yaw_sweep = 28;  ///< candidates that are refined, of each generator
   std::size_t of_axis_sweep = 16;
   std::size_t of_others = 8;
-  std::size_t judged = 12;   ///< of all those, judged by all points
-  std::size_t finished = 4;  ///< of those, the most promising, refined by all points
+  std::size_t judged = 12;  ///< of all those, refined and judged by all points
 };
 
 /// A refined pose with what speaks for and against it.

@@ -44,7 +44,7 @@ bool is_determined(const PreparedScan& fixed, const PreparedScan& moving,
 /// ground says nothing about the place, however much of it agrees and however it undulates.
 bool has_standing(const PreparedScan& fixed, const PreparedScan& moving,
                   const RigidTransform& pose) {
-  constexpr double least_standing = 0.005, largest_conflict_for_standing = 0.2;
+  constexpr double least_standing = 0.001, largest_conflict_for_standing = 0.2;
   const StandingEvidence found = standing_evidence(fixed, moving, pose, {});
   const double conflict = (found.evidence.conflict_fixed + found.evidence.conflict_moving) / 2;
   return found.standing >= least_standing &&
