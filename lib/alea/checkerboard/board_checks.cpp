@@ -28,12 +28,12 @@ Cells cell_means(const BoardSpec& board, std::span<const Eigen::Vector2d> places
   for (std::size_t i = 0; i < places_m.size(); ++i) {
     const Eigen::Vector2d at =
         on_board(places_m[i]) / fit.cell_m + Eigen::Vector2d(board.columns, board.rows) / 2;
-    const double column = std::floor(at.x()), row = std::floor(at.y());
-    if (column < 0 || row < 0 || column >= board.columns || row >= board.rows) continue;
+    if (!(at.x() >= 0 && at.y() >= 0 && at.x() < board.columns && at.y() < board.rows)) continue;
+    const int column = static_cast<int>(at.x()), row = static_cast<int>(at.y());
     const double from_edge =
         std::min({at.x() - column, column + 1 - at.x(), at.y() - row, row + 1 - at.y()});
     if (from_edge < margin) continue;
-    const auto cell = static_cast<std::size_t>(row * board.columns + column);
+    const auto cell = static_cast<std::size_t>(row) * board.columns + column;
     cells.sum[cell] += intensity[i];
     cells.count[cell] += 1;
   }
