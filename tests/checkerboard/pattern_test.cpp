@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "alea/checkerboard/blurred_pattern.hpp"
+#include "alea/checkerboard/board_raster.hpp"
 #include "alea/core/error.hpp"
 
 namespace alea {
@@ -52,6 +53,32 @@ TEST(BlurredPattern, SharpEdgesGiveThePatternItself) {
     for (double y = -0.14; y < 0.15; y += 0.031)
       EXPECT_NEAR(BlurredPattern(board, {1e-6, 1e-6}).at({x, y}).value, pattern_sign(board, {x, y}),
                   1e-9);
+}
+
+TEST(BoardWindows, AreTheSumsOverTheCellsOfEachOutline) {
+  BoardRaster raster(17, 15);
+  for (int k = 0; k < 400; ++k)  // quarters: sums in any order are exact
+    raster.add(k * 7 % 17, k * 11 % 15, static_cast<float>(k * k % 9 - 4) / 4);
+  for (const BoardSpec& board : {BoardSpec{2, 2, 1}, BoardSpec{4, 3, 1}, BoardSpec{5, 4, 1}}) {
+    const int cell_px = 3;
+    const BoardWindows windows(raster, board, cell_px);
+    ASSERT_EQ(windows.width(), 17 - 3 * board.columns + 1);
+    ASSERT_EQ(windows.height(), 15 - 3 * board.rows + 1);
+    for (int y = 0; y < windows.height(); ++y) {
+      for (int x = 0; x < windows.width(); ++x) {
+        Eigen::Array4d plain = Eigen::Array4d::Zero(), alternating = Eigen::Array4d::Zero();
+        for (int v = 0; v < board.rows * cell_px; ++v)
+          for (int u = 0; u < board.columns * cell_px; ++u) {
+            plain += raster.at(x + u, y + v);
+            alternating +=
+                ((u / cell_px + v / cell_px) % 2 == 0 ? 1 : -1) * raster.at(x + u, y + v);
+          }
+        EXPECT_TRUE((windows.plain(x, y) == plain).all()) << x << " " << y;
+        EXPECT_TRUE((windows.alternating(x, y) == alternating.head<2>()).all()) << x << " " << y;
+      }
+    }
+  }
+  EXPECT_EQ(BoardWindows(raster, {6, 5, 1}, 3).width(), 0);
 }
 
 TEST(Board, TemplateHasAsManyDarkAsLightPointsOnEvenCells) {

@@ -73,6 +73,33 @@ TEST(BoardInTheWorld, ColoursCountWhereAllIntensitiesAreEqual) {
   EXPECT_LT((result->centre_m - board_pose.translation).norm(), 5e-4);
 }
 
+/// A light wall of 0.9 m with one dark square of 0.15 m amid it, seen by a beam so wide that a
+/// whole board would correlate by 0.8 only.
+Cloud wall_with_dark_cell(std::uint64_t trial) {
+  RandomStream random({43, 0, trial, 0, Purpose::test});
+  Cloud cloud;
+  for (int k = 0; k < 2500; ++k) {
+    const Eigen::Vector2d at(0.9 * random.uniform() - 0.45, 0.9 * random.uniform() - 0.45);
+    const bool dark = at.cwiseAbs().maxCoeff() <= 0.075;
+    const Eigen::Vector3d noise(0.015 * random.normal(), 0.015 * random.normal(),
+                                5e-4 * random.normal());
+    cloud.positions.push_back(board_pose * (Eigen::Vector3d(at.x(), at.y(), 0) + noise));
+    cloud.intensity.push_back(static_cast<float>((dark ? 0.1 : 0.8) + 0.03 * random.normal()));
+  }
+  return cloud;
+}
+
+// Three of the four cells are right where the corner of a dark cell is taken for the centre.
+TEST(BoardInTheWorld, OneDarkCellInALightWallIsNoBoard) {
+  const BoardSpec board{2, 2, 0.15};
+  for (std::uint64_t trial = 0; trial < 12; ++trial) {
+    const auto result = measure_by_likelihood(wall_with_dark_cell(trial), board_pose.translation,
+                                              options_for(board));
+    ASSERT_FALSE(result) << trial;
+    EXPECT_EQ(result.refusal().code, RefusalCode::no_pattern) << result.refusal().message;
+  }
+}
+
 TEST(BoardInTheWorld, ManyCellsAreFoundWithoutAPlaceAndNothingElse) {
   const BoardSpec board{8, 6, 0.06};
   Cloud cloud = scan(printed(board));

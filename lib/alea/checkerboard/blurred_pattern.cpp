@@ -16,9 +16,8 @@ BlurredWave::BlurredWave(int cells, double cell_m, double blur_m)
   reach_cells_ = reach * blur_m / cell_m;
 }
 
-BlurredWave::Value BlurredWave::at(double place_m) const {
+BlurredWave::Value BlurredWave::near_edges(double place_m, double in_cells) const {
   // Edge k (from 1) lies at (k - cells / 2) cells; those within reach are first to last.
-  const double in_cells = place_m * cells_per_m_ + half_cells_;
   const double low = std::clamp(in_cells - reach_cells_, 0.0, edges_ + 1.0);
   const double high = std::clamp(in_cells + reach_cells_, 0.0, edges_ + 0.5);
   const int below = static_cast<int>(low), last = static_cast<int>(high);
@@ -36,18 +35,6 @@ BlurredWave::Value BlurredWave::at(double place_m) const {
     wave.by_cell -= sign * slope * from_centre;
   }
   return wave;
-}
-
-BlurredPattern::Value BlurredPattern::at(const Eigen::Vector2d& place_m) const {
-  const BlurredWave::Value x = columns_.at(place_m.x()), y = rows_.at(place_m.y());
-  Value pattern;
-  pattern.value = -x.value * y.value;
-  pattern.flat = x.by_place == 0 && y.by_place == 0;
-  if (pattern.flat) return pattern;
-  pattern.by_place = {-x.by_place * y.value, -x.value * y.by_place};
-  pattern.by_blur = {-x.by_blur * y.value, -x.value * y.by_blur};
-  pattern.by_cell = -x.by_cell * y.value - x.value * y.by_cell;
-  return pattern;
 }
 
 }  // namespace alea

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 
 #include "alea/checkerboard/board.hpp"
 
@@ -19,10 +21,20 @@ class BlurredWave {
     double by_blur = 0;   ///< 1/m
     double by_cell = 0;   ///< 1/m
   };
-  Value at(double place_m) const;
+  Value at(double place_m) const {
+    const double in_cells = place_m * cells_per_m_ + half_cells_;
+    // Most places are far from every edge: the nearest inner one (from 1, at k cells) tells.
+    const int nearest = static_cast<int>(std::clamp(in_cells + 0.5, 1.0, edges_ + 0.5));
+    if (std::abs(in_cells - nearest) <= reach_cells_) return near_edges(place_m, in_cells);
+    Value wave;
+    wave.value = (in_cells > nearest ? nearest : nearest - 1) % 2 == 0 ? 1 : -1;
+    return wave;
+  }
 
  private:
-  int edges_;
+  Value near_edges(double place_m, double in_cells) const;
+
+  int edges_;  ///< inner ones
   double cells_per_m_, half_cells_, cell_m_, reach_cells_;
   double scale_;  ///< 1 / (sqrt2 blur), 1/m
 };
@@ -45,7 +57,17 @@ class BlurredPattern {
     double by_cell = 0;
     bool flat = true;  ///< so far from every edge that only the value is not zero
   };
-  Value at(const Eigen::Vector2d& place_m) const;
+  Value at(const Eigen::Vector2d& place_m) const {
+    const BlurredWave::Value x = columns_.at(place_m.x()), y = rows_.at(place_m.y());
+    Value pattern;
+    pattern.value = -x.value * y.value;
+    pattern.flat = x.by_place == 0 && y.by_place == 0;
+    if (pattern.flat) return pattern;
+    pattern.by_place = {-x.by_place * y.value, -x.value * y.by_place};
+    pattern.by_blur = {-x.by_blur * y.value, -x.value * y.by_blur};
+    pattern.by_cell = -x.by_cell * y.value - x.value * y.by_cell;
+    return pattern;
+  }
 
  private:
   BlurredWave columns_, rows_;

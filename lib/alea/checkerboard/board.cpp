@@ -21,8 +21,13 @@ void require_valid(const BoardSpec& board) {
 }
 
 int pattern_sign(const BoardSpec& board, const Eigen::Vector2d& place_m) {
-  const int column = static_cast<int>(std::floor(place_m.x() / board.cell_m + board.columns / 2.0));
-  const int row = static_cast<int>(std::floor(place_m.y() / board.cell_m + board.rows / 2.0));
+  // Truncation would do inside the board; std::floor is a call of the C library here.
+  const auto cell_of = [](double in_cells) {
+    const int truncated = static_cast<int>(in_cells);
+    return truncated - (in_cells < truncated ? 1 : 0);
+  };
+  const int column = cell_of(place_m.x() / board.cell_m + board.columns / 2.0);
+  const int row = cell_of(place_m.y() / board.cell_m + board.rows / 2.0);
   return ((column + row) & 1) == 0 ? -1 : 1;
 }
 

@@ -9,7 +9,7 @@
 namespace alea {
 
 /// How well the cells agree with the pattern: pairs of cells side by side whose mean intensities
-/// differ the right way.
+/// differ the right way; on a board of few cells by a quarter of the mean of such differences.
 struct CellPairs {
   int right = 0, seen = 0, all = 0;
 };

@@ -33,11 +33,22 @@ class BoardExpectation {
 
   Eigen::Vector2d on_board(const Eigen::Vector2d& place) const { return on_board_(place); }
 
+  BlurredPattern::Value pattern(const Eigen::Vector2d& on_board_m) const {
+    return pattern_.at(on_board_m);
+  }
+  /// The expected intensity alone.
+  double value(const Eigen::Vector2d& on_board_m, double pattern) const {
+    return fit_.mean + fit_.half_contrast * pattern + fit_.slope.dot(on_board_m);
+  }
+
   ExpectedIntensity at(const Eigen::Vector2d& on_board_m) const {
-    const BlurredPattern::Value pattern = pattern_.at(on_board_m);
+    return at(on_board_m, pattern(on_board_m));
+  }
+  ExpectedIntensity at(const Eigen::Vector2d& on_board_m,
+                       const BlurredPattern::Value& pattern) const {
     const double half = fit_.half_contrast;
     ExpectedIntensity model;
-    model.value = fit_.mean + half * pattern.value + fit_.slope.dot(on_board_m);
+    model.value = value(on_board_m, pattern.value);
     model.row[5] = 1;
     model.row[6] = pattern.value;
     if (options_.free_slope) model.row.tail<2>() = on_board_m;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "alea/checkerboard/board_precision.hpp"
@@ -95,21 +96,23 @@ class Fitter {
   /// Intensity noise from points away from edges, jitter from what is left near them.
   void update_noise() {
     const BoardExpectation expectation(board_, fit_, options_);
-    std::vector<double> flat, all;
+    std::vector<double> sizes;  // of the residuals away from edges
+    sizes.reserve(samples_.size());
     std::vector<std::pair<double, double>> near_edges;  // squared residual, jitter factor
     const double steep = 1e-3 * fit_.half_contrast / board_.cell_m;
     for (const Sample& sample : samples_) {
       const ExpectedIntensity model = expectation.at(expectation.on_board(sample.place));
       const double residual = sample.intensity - model.value;
-      all.push_back(std::abs(residual));
       if (model.jitter_factor <= steep * steep)
-        flat.push_back(std::abs(residual));
+        sizes.push_back(std::abs(residual));
       else
         near_edges.emplace_back(residual * residual, model.jitter_factor);
     }
     const double floor = 1e-4 * std::abs(fit_.half_contrast) + 1e-12;
-    const bool few_flat = flat.size() < 20;
-    const double spread = all.empty() ? 0 : median(few_flat ? all : flat);
+    const bool few_flat = sizes.size() < 20;
+    if (few_flat)
+      for (const auto& [squared, factor] : near_edges) sizes.push_back(std::sqrt(squared));
+    const double spread = sizes.empty() ? 0 : median(std::move(sizes));
     fit_.intensity_sd = std::max(1.4826 * spread, floor);
     fit_.place_sd_m = 0;
     if (few_flat) return;
@@ -133,9 +136,16 @@ class Fitter {
     double cost = 0;
   };
 
-  double cost_of(double standardised) const {
-    const double size = std::abs(standardised);
-    return size <= board_huber ? size * size : board_huber * (2 * size - board_huber);
+  /// Huber's weight over the variance; adds the point's part to the cost.
+  static double weigh(double residual, double variance, double& cost) {
+    const double squared = residual * residual / variance;
+    if (squared <= board_huber * board_huber) {
+      cost += squared;
+      return 1 / variance;
+    }
+    const double size = std::sqrt(squared);
+    cost += board_huber * (2 * size - board_huber);
+    return board_huber / (size * variance);
   }
 
   Sums sums() const {
@@ -147,32 +157,38 @@ class Fitter {
   template <int count>
   Sums sums_over() const {
     const BoardExpectation expectation(board_, fit_, options_);
+    const double flat_variance = fit_.intensity_sd * fit_.intensity_sd;
     Sums total;
     for (const Sample& sample : samples_) {
-      const ExpectedIntensity model = expectation.at(expectation.on_board(sample.place));
-      const double v = intensity_variance(fit_, model), residual = sample.intensity - model.value;
-      const double size = std::abs(residual) / std::sqrt(v);
-      const double weight = (size <= board_huber ? 1 : board_huber / size) / v;
-      total.cost += cost_of(size);
+      const Eigen::Vector2d at = expectation.on_board(sample.place);
+      const BlurredPattern::Value pattern = expectation.pattern(at);
       // Points far from every edge touch mean and contrast only.
-      if (model.jitter_factor == 0 && !options_.free_slope) {
-        add_square<5, 7>(model.row, weight, total.normal_matrix);
-        total.right.segment<2>(5) += (weight * residual) * model.row.segment<2>(5);
-      } else {
-        add_square<0, count>(model.row, weight, total.normal_matrix);
-        total.right.head<count>() += (weight * residual) * model.row.head<count>();
+      if (pattern.flat && !options_.free_slope) {
+        const double residual = sample.intensity - expectation.value(at, pattern.value);
+        const double weight = weigh(residual, flat_variance, total.cost);
+        total.normal_matrix(5, 5) += weight;
+        total.normal_matrix(5, 6) += weight * pattern.value;
+        total.normal_matrix(6, 6) += weight * pattern.value * pattern.value;
+        total.right[5] += weight * residual;
+        total.right[6] += weight * residual * pattern.value;
+        continue;
       }
+      const ExpectedIntensity model = expectation.at(at, pattern);
+      const double residual = sample.intensity - model.value;
+      const double weight = weigh(residual, intensity_variance(fit_, model), total.cost);
+      add_square<count>(model.row, weight, total.normal_matrix);
+      total.right.head<count>() += (weight * residual) * model.row.head<count>();
     }
     total.normal_matrix.triangularView<Eigen::StrictlyLower>() = total.normal_matrix.transpose();
     return total;
   }
 
-  /// factor * row * row' of parameters first to last - 1, added to the upper triangle.
-  template <int first, int last>
+  /// factor * row * row' of the first parameters, added to the upper triangle.
+  template <int count>
   static void add_square(const Row& row, double factor, Matrix& matrix) {
-    for (int column = first; column < last; ++column) {
+    for (int column = 0; column < count; ++column) {
       const double weighed = factor * row[column];
-      for (int k = first; k <= column; ++k) matrix(k, column) += weighed * row[k];
+      for (int k = 0; k <= column; ++k) matrix(k, column) += weighed * row[k];
     }
   }
 

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "alea/cloud/spatial_order.hpp"
 #include "alea/core/median.hpp"
@@ -52,11 +53,12 @@ std::vector<RayResidual> residuals_of(const RayResiduals& residuals, std::size_t
 void update_scales(const std::vector<RayResidual>& residuals,
                    const std::vector<std::uint8_t>& is_light, BoardPlane& plane) {
   std::array<std::vector<double>, 2> sizes;
+  for (auto& of_class : sizes) of_class.reserve(is_light.size());
   for (std::size_t i = 0; i < is_light.size(); ++i)
     sizes[is_light[i]].push_back(std::abs(residuals[i].along_m));
   std::array<double, 2> scale{};
   for (int c = 0; c < 2; ++c)
-    scale[c] = sizes[c].size() < 6 ? 0 : std::max(1.4826 * median(sizes[c]), 1e-7);
+    scale[c] = sizes[c].size() < 6 ? 0 : std::max(1.4826 * median(std::move(sizes[c])), 1e-7);
   for (int c = 0; c < 2; ++c)  // a class with too few points takes the other's
     plane.range_sd_m[c] = scale[c] > 0 ? scale[c] : std::max(scale[1 - c], 1e-7);
 }
@@ -75,6 +77,12 @@ Eigen::Vector3d plane_row(const RayResiduals& rays, std::size_t i, const RayResi
   return Eigen::Vector3d(place.x(), place.y(), -1) / (residual.cosine * sd);
 }
 
+/// The upper triangle of a symmetric product a b'.
+void add_upper(const Eigen::Vector3d& a, const Eigen::Vector3d& b, Eigen::Matrix3d& sum) {
+  for (int column = 0; column < 3; ++column)
+    for (int k = 0; k <= column; ++k) sum(k, column) += a[k] * b[column];
+}
+
 PlaneStep plane_step(const RayResiduals& rays, const std::vector<RayResidual>& residuals,
                      const std::vector<std::uint8_t>& is_light, const BoardPlane& plane) {
   PlaneStep sums;
@@ -83,9 +91,10 @@ PlaneStep plane_step(const RayResiduals& rays, const std::vector<RayResidual>& r
     if (std::abs(u) >= 1) continue;
     const Eigen::Vector3d row = plane_row(rays, i, residuals[i], sd);
     const Eigen::Vector3d weighed = (1 - u * u) * (1 - u * u) * row;
-    sums.weighted.noalias() += weighed * row.transpose();
+    add_upper(weighed, row, sums.weighted);
     sums.right -= (residuals[i].along_m / sd) * weighed;
   }
+  sums.weighted.triangularView<Eigen::StrictlyLower>() = sums.weighted.transpose();
   return sums;
 }
 

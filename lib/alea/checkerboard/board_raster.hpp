@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <Eigen/Core>
 #include <cstddef>
 #include <vector>
 
@@ -8,37 +8,53 @@
 
 namespace alea {
 
-/// Count, sum and sum of squares of the intensities in square pixels.
+/// Count, sum and sum of squares of the intensities in square pixels. Those of a pixel lie side by
+/// side, so that one instruction adds more than one of them.
 class BoardRaster {
  public:
-  BoardRaster(int width, int height) : width_(width), height_(height) {
-    for (auto& plane : planes_) plane.resize(static_cast<std::size_t>(width) * height);
-  }
+  BoardRaster(int width, int height)
+      : width_(width), height_(height), pixels_(4 * static_cast<std::size_t>(width) * height) {}
+
   void add(int x, int y, float intensity) {
-    const std::size_t at = static_cast<std::size_t>(y) * width_ + x;
-    planes_[0][at] += 1;
-    planes_[1][at] += intensity;
-    planes_[2][at] += intensity * intensity;
+    float* pixel = &pixels_[4 * (static_cast<std::size_t>(y) * width_ + x)];
+    pixel[0] += 1;
+    pixel[1] += intensity;
+    pixel[2] += intensity * intensity;
   }
   int width() const { return width_; }
   int height() const { return height_; }
-  const std::vector<float>& plane(int k) const { return planes_[k]; }
+  Eigen::Array4d at(int x, int y) const {
+    return Eigen::Map<const Eigen::Array4f>(
+               &pixels_[4 * (static_cast<std::size_t>(y) * width_ + x)])
+        .cast<double>();
+  }
 
  private:
   int width_, height_;
-  std::array<std::vector<float>, 3> planes_;  // count, sum, sum of squares
+  std::vector<float> pixels_;  // the fourth of each stays zero
 };
 
-/// Working memory of window_map, kept between its calls.
-struct WindowScratch {
-  std::vector<double> rows, totals;
-};
+/// Sums over the outline of a board whose first cell begins at a pixel, cells of `cell_px` pixels,
+/// for every pixel where the outline fits. Each costs as many additions as the board has columns
+/// and rows.
+class BoardWindows {
+ public:
+  BoardWindows(const BoardRaster& raster, const BoardSpec& board, int cell_px);
 
-/// For each pixel the sum of a plane over the outline of a board whose first cell begins there,
-/// cells of `cell_px` pixels: all weighed +1, or as a checkerboard that begins with +1
-/// (`alternating`). Places whose outline does not fit hold nothing of use. Each costs as many
-/// additions as the board has columns and rows.
-std::vector<double> window_map(const BoardRaster& raster, int plane, const BoardSpec& board,
-                               int cell_px, bool alternating, WindowScratch& scratch);
+  int width() const { return width_; }    ///< places along x
+  int height() const { return height_; }  ///< places along y
+
+  /// Count, sum, sum of squares.
+  const Eigen::Array4d& plain(int x, int y) const { return plain_[place(x, y)]; }
+  /// Count and sum weighed as a checkerboard that begins with +1.
+  const Eigen::Array2d& alternating(int x, int y) const { return alternating_[place(x, y)]; }
+
+ private:
+  std::size_t place(int x, int y) const { return static_cast<std::size_t>(y) * width_ + x; }
+
+  int width_, height_;
+  std::vector<Eigen::Array4d> plain_;
+  std::vector<Eigen::Array2d> alternating_;
+};
 
 }  // namespace alea

@@ -1,7 +1,6 @@
 #include "alea/checkerboard/board_search.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
@@ -99,22 +98,12 @@ BoardRaster intensities_on_raster(const Grid& grid, std::span<const Eigen::Vecto
   return raster;
 }
 
-/// Sums over the outline at each pixel: of 1, i, i^2, s and s i.
-class OutlineMaps {
- public:
-  OutlineMaps(const BoardRaster& raster, const BoardSpec& board, int cell_px) {
-    WindowScratch scratch;
-    for (int k = 0; k < 3; ++k) maps_[k] = window_map(raster, k, board, cell_px, false, scratch);
-    for (int k = 0; k < 2; ++k) maps_[3 + k] = window_map(raster, k, board, cell_px, true, scratch);
-  }
-  /// The first cell is dark, -1; the windows begin with +1.
-  OutlineSums operator[](std::size_t at) const {
-    return {maps_[0][at], maps_[1][at], maps_[2][at], -maps_[3][at], -maps_[4][at]};
-  }
-
- private:
-  std::array<std::vector<double>, 5> maps_;
-};
+/// The first cell is dark, -1; the windows begin with +1.
+OutlineSums sums_at(const BoardWindows& windows, int x, int y) {
+  const Eigen::Array4d& plain = windows.plain(x, y);
+  const Eigen::Array2d& alternating = windows.alternating(x, y);
+  return {plain[0], plain[1], plain[2], -alternating[0], -alternating[1]};
+}
 
 /// The candidate at sums of an outline, without its place; nothing where its gain is below `least`.
 std::optional<BoardCandidate> candidate_of(const OutlineSums& sums, bool free_sign, double least) {
@@ -135,20 +124,20 @@ std::vector<BoardCandidate> search_angle(const BoardSpec& board, const Grid& gri
                                          std::span<const Eigen::Vector2d> places_m,
                                          const std::vector<float>& intensity, double angle_rad,
                                          const BoardSearchOptions& options) {
-  const OutlineMaps maps(
+  const BoardWindows windows(
       intensities_on_raster(grid, places_m, intensity, {options.about_m, angle_rad}), board,
       grid.cell_px);
   const double c = std::cos(angle_rad), s = std::sin(angle_rad);
   const bool free_sign = sign_is_free(board);
   std::vector<BoardCandidate> best;
   double best_gain = 0;
-  for (int y = 0; y + board.rows * grid.cell_px <= grid.size_px; ++y) {
-    for (int x = 0; x + board.columns * grid.cell_px <= grid.size_px; ++x) {
+  for (int y = 0; y < windows.height(); ++y) {
+    for (int x = 0; x < windows.width(); ++x) {
       const Eigen::Vector2d turned = Eigen::Vector2d(x, y) * grid.pixel_m -
                                      Eigen::Vector2d::Constant(grid.half_m) +
                                      Eigen::Vector2d(board.side_m(), board.height_m()) / 2;
       if (turned.norm() > options.radius_m) continue;
-      auto candidate = candidate_of(maps[static_cast<std::size_t>(y) * grid.size_px + x], free_sign,
+      auto candidate = candidate_of(sums_at(windows, x, y), free_sign,
                                     BoardSearchOptions::least_gain_share * best_gain);
       if (!candidate) continue;
       best_gain = std::max(best_gain, candidate->gain);

@@ -12,6 +12,7 @@
 #include "alea/checkerboard/board_sighting.hpp"
 #include "alea/checkerboard/fitted_board.hpp"
 #include "alea/core/error.hpp"
+#include "alea/core/parallel.hpp"
 
 namespace alea {
 namespace {
@@ -149,6 +150,50 @@ Refusal nothing_there(const BoardPoints& points, bool any_plane, const BoardSpec
                       board.rows)};
 }
 
+/// One candidate on its sighting.
+struct Attempt {
+  const Sighting& sighting;
+  const BoardCandidate& candidate;
+};
+
+Result<BoardMeasurement> measure_candidate(const Attempt& attempt, const BoardSpec& board) {
+  FittedBoard fitted = fit_roughly(attempt.sighting, attempt.candidate, board);
+  if (auto rough = check_roughly(board, fitted.places, fitted.points.intensity, fitted.fit))
+    return *rough;
+  fit_precisely(board, fitted);
+  // Few that come so far are refused, and each takes about as long as the other.
+  std::optional<Refusal> refusal;
+  BoardMeasurement measurement;
+  parallel_pair([&] { refusal = check(fitted, board); },
+                [&] { measurement = described(fitted, board); });
+  if (refusal) return *refusal;
+  return measurement;
+}
+
+/// Each candidate by itself; in their order, whichever thread is the first.
+std::vector<Result<BoardMeasurement>> measure_candidates(const std::vector<Sighting>& planes,
+                                                         const BoardSpec& board) {
+  const double least_gain = BoardSearchOptions::least_gain_share * planes[0].candidates[0].gain;
+  std::vector<Attempt> attempts;
+  for (const Sighting& sighting : planes)
+    for (const BoardCandidate& candidate : sighting.candidates)
+      if (candidate.gain >= least_gain) attempts.push_back({sighting, candidate});
+  std::vector<Result<BoardMeasurement>> results(attempts.size(), Refusal{});
+  parallel_chunks(attempts.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) results[k] = measure_candidate(attempts[k], board);
+  });
+  return results;
+}
+
+/// The nearer of two boards if it is nearer by far, nothing if neither is.
+std::optional<BoardMeasurement> nearer_by_far(const BoardMeasurement& a, const BoardMeasurement& b,
+                                              const Eigen::Vector3d& place) {
+  const double to_a = (a.centre_m - place).norm(), to_b = (b.centre_m - place).norm();
+  if (to_b < 0.5 * to_a) return b;
+  if (to_a < 0.5 * to_b) return a;
+  return std::nullopt;
+}
+
 }  // namespace
 
 Result<BoardMeasurement> measure_points(const BoardPoints& points, const Eigen::Vector3d& facing,
@@ -158,41 +203,26 @@ Result<BoardMeasurement> measure_points(const BoardPoints& points, const Eigen::
     return nothing_there(points, !planes.empty(), options.board);
   std::optional<Refusal> first_refusal;
   std::optional<BoardMeasurement> found;
-  const double side_m = options.board.side_m();
-  const double least_gain = BoardSearchOptions::least_gain_share * planes[0].candidates[0].gain;
-  for (const Sighting& sighting : planes) {
-    for (const BoardCandidate& candidate : sighting.candidates) {
-      if (candidate.gain < least_gain) break;
-      FittedBoard fitted = fit_roughly(sighting, candidate, options.board);
-      auto refusal =
-          check_roughly(options.board, fitted.places, fitted.points.intensity, fitted.fit);
-      if (!refusal) {
-        fit_precisely(options.board, fitted);
-        refusal = check(fitted, options.board);
-      }
-      if (refusal) {
-        // A pattern of another size says more than a place without one.
-        if (!first_refusal || (first_refusal->code == RefusalCode::no_pattern &&
-                               refusal->code != RefusalCode::no_pattern))
-          first_refusal = refusal;
-        continue;
-      }
-      const BoardMeasurement one = described(fitted, options.board);
-      if (!found) {
-        found = one;
-        continue;
-      }
-      if ((one.centre_m - found->centre_m).norm() < 0.5 * side_m) continue;
-      const double here = (found->centre_m - points.origin).norm();
-      const double there = (one.centre_m - points.origin).norm();
-      if (there < 0.5 * here)
-        found = one;
-      else if (here >= 0.5 * there)
-        return Refusal{RefusalCode::ambiguous_target,
-                       fmt::format("two boards about as near, {:.3f} m apart; give --near more "
-                                   "closely",
-                                   (one.centre_m - found->centre_m).norm())};
+  for (const Result<BoardMeasurement>& one : measure_candidates(planes, options.board)) {
+    if (!one) {
+      // A pattern of another size says more than a place without one.
+      if (!first_refusal || (first_refusal->code == RefusalCode::no_pattern &&
+                             one.refusal().code != RefusalCode::no_pattern))
+        first_refusal = one.refusal();
+      continue;
     }
+    if (!found) {
+      found = *one;
+      continue;
+    }
+    const double apart_m = (one->centre_m - found->centre_m).norm();
+    if (apart_m < 0.5 * options.board.side_m()) continue;
+    found = nearer_by_far(*found, *one, points.origin);
+    if (!found)
+      return Refusal{RefusalCode::ambiguous_target,
+                     fmt::format("two boards about as near, {:.3f} m apart; give --near more "
+                                 "closely",
+                                 apart_m)};
   }
   if (found) return *found;
   return first_refusal ? *first_refusal : nothing_there(points, true, options.board);
