@@ -204,6 +204,15 @@ TEST(E57, APoseThatIsNotFiniteIsNamed) {
   EXPECT_THAT(error_of(bad), HasSubstr("scan 1: pose: expected finite numbers"));
 }
 
+TEST(E57, APoseThatIsNoNumberIsNamed) {
+  const TemporaryFolder folder;
+  const std::string path = integer_file({250, 2, {1, 2, 3}}, 8, folder.path().string());
+  const std::string bad = with_xml(path, [](std::string& xml) {
+    insert_before(xml, "<points", "<pose><translation><x>1</x><y>b</y></translation></pose>");
+  });
+  EXPECT_THAT(error_of(bad), HasSubstr("scan 1: pose: translation y"));
+}
+
 // The tree would take 25 times the memory of the text.
 TEST(E57, MoreElementsThanMemoryIsMeantForAreRefused) {
   const TemporaryFolder folder;

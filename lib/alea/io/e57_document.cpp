@@ -120,13 +120,14 @@ class Reader {
     const bool turned = static_cast<bool>(node.child("rotation"));
     const Eigen::Quaterniond q(value("rotation", "w", turned ? 0 : 1), value("rotation", "x", 0),
                                value("rotation", "y", 0), value("rotation", "z", 0));
+    const Eigen::Vector3d translation_m(value("translation", "x", 0), value("translation", "y", 0),
+                                        value("translation", "z", 0));
     Eigen::Matrix4d out = Eigen::Matrix4d::Identity();
     // Rounded digits are no scale; a quaternion that is off by more is kept as the scale it is.
     const double norm = q.norm();
     const double scale = std::abs(norm - 1) < 2e-4 ? 1 : norm * norm;
     out.topLeftCorner<3, 3>() = scale * q.normalized().toRotationMatrix();
-    out.topRightCorner<3, 1>() << value("translation", "x", 0), value("translation", "y", 0),
-        value("translation", "z", 0);
+    out.topRightCorner<3, 1>() = translation_m;
     if (!out.allFinite()) fail(where + ": pose: expected finite numbers");
     return out;
   }
