@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "alea/cloud/sampling.hpp"
 #include "alea/core/error.hpp"
@@ -96,14 +97,30 @@ class CellTable {
   std::uint32_t last_ = 0;
 };
 
+std::pair<Eigen::Vector3d, Eigen::Vector3d> box_of(const std::vector<Eigen::Vector3d>& points) {
+  constexpr std::size_t share = 1 << 16;
+  const std::pair<Eigen::Vector3d, Eigen::Vector3d> first{points[0], points[0]};
+  std::vector boxes((points.size() + share - 1) / share, first);
+  parallel_chunks(points.size(), share, [&](std::size_t begin, std::size_t end) {
+    auto [low, high] = first;
+    for (std::size_t i = begin; i < end; ++i) {
+      low = low.cwiseMin(points[i]);
+      high = high.cwiseMax(points[i]);
+    }
+    boxes[begin / share] = {low, high};
+  });
+  auto [low, high] = first;
+  for (const auto& box : boxes) {
+    low = low.cwiseMin(box.first);
+    high = high.cwiseMax(box.second);
+  }
+  return {low, high};
+}
+
 Grid grid_of(const Cloud& cloud, double cell_m) {
   if (!(cell_m > 0) || !std::isfinite(cell_m))
     throw usage_error("grid average: the cell size must be positive (m)");
-  Eigen::Vector3d low = cloud.positions[0], high = low;
-  for (const Eigen::Vector3d& p : cloud.positions) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
+  const auto [low, high] = box_of(cloud.positions);
   if (!((high - low).maxCoeff() / cell_m < (1 << 21)))
     throw usage_error(fmt::format(
         "grid average: {} m is too small a cell for a cloud of {} m; at most 2^21 cells an axis",
@@ -163,6 +180,9 @@ struct Part {
 
 std::vector<Part> sorted_parts(const std::vector<CellTable>& tables) {
   std::vector<Part> parts;
+  std::size_t count = 0;
+  for (const CellTable& table : tables) count += table.cells.size();
+  parts.reserve(count);
   for (std::uint32_t t = 0; t < tables.size(); ++t)
     for (std::uint32_t c = 0; c < tables[t].cells.size(); ++c)
       parts.push_back({tables[t].cells[c].key, t, c});
@@ -171,27 +191,42 @@ std::vector<Part> sorted_parts(const std::vector<CellTable>& tables) {
   return parts;
 }
 
-void append_mean(const Cloud& cloud, const Grid& grid, const Cell& cell, const Attributes& sums,
-                 double scale, Cloud& out) {
+/// Where each cell's parts begin among the sorted ones, and the end of all.
+std::vector<std::size_t> begins_of_cells(const std::vector<Part>& parts) {
+  std::vector<std::size_t> begins;
+  begins.reserve(parts.size() + 1);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if (i == 0 || parts[i].key != parts[i - 1].key) begins.push_back(i);
+  begins.push_back(parts.size());
+  return begins;
+}
+
+void size_like(const Cloud& cloud, std::size_t count, Cloud& out) {
+  out.positions.resize(count);
+  if (cloud.has_intensity()) out.intensity.resize(count);
+  if (!cloud.normals.empty()) out.normals.resize(count);
+  if (!cloud.colours.empty()) out.colours.resize(count);
+}
+
+/// The mean of a cell as point `at` of the sample.
+void put_mean(const Grid& grid, const Cell& cell, const Attributes& sums, double scale,
+              std::size_t at, Cloud& out) {
   const auto count = static_cast<double>(cell.count);
   const double unit = grid.cell_m / (fixed_point * count);
-  out.positions.push_back(grid.corner(cell.key) +
-                          unit * Eigen::Vector3d(static_cast<double>(cell.within[0]),
-                                                 static_cast<double>(cell.within[1]),
-                                                 static_cast<double>(cell.within[2])));
-  if (cloud.has_intensity())
-    out.intensity.push_back(static_cast<float>(static_cast<double>(sums[0]) / scale / count));
-  if (!cloud.normals.empty()) {
+  out.positions[at] =
+      grid.corner(cell.key) + unit * Eigen::Vector3d(static_cast<double>(cell.within[0]),
+                                                     static_cast<double>(cell.within[1]),
+                                                     static_cast<double>(cell.within[2]));
+  if (out.has_intensity())
+    out.intensity[at] = static_cast<float>(static_cast<double>(sums[0]) / scale / count);
+  if (!out.normals.empty()) {
     const Eigen::Vector3d sum(static_cast<double>(sums[1]), static_cast<double>(sums[2]),
                               static_cast<double>(sums[3]));
-    out.normals.push_back(sum.normalized().cast<float>());
+    out.normals[at] = sum.normalized().cast<float>();
   }
-  if (!cloud.colours.empty()) {
-    Colour mean{};
+  if (!out.colours.empty())
     for (std::size_t k = 0; k < 3; ++k)
-      mean[k] = static_cast<std::uint16_t>((sums[4 + k] + cell.count / 2) / cell.count);
-    out.colours.push_back(mean);
-  }
+      out.colours[at][k] = static_cast<std::uint16_t>((sums[4 + k] + cell.count / 2) / cell.count);
 }
 
 }  // namespace
@@ -208,19 +243,23 @@ Cloud grid_average(const Cloud& cloud, double cell_m) {
     tables[begin / share] = table_of(cloud, grid, scale, begin, end);
   });
   const std::vector<Part> parts = sorted_parts(tables);
-  for (std::size_t i = 0; i < parts.size();) {
-    Cell cell{parts[i].key, {}, 0};
-    Attributes sums{};
-    for (; i < parts.size() && parts[i].key == cell.key; ++i) {
-      const CellTable& table = tables[parts[i].table];
-      const Cell& part = table.cells[parts[i].cell];
-      for (std::size_t k = 0; k < 3; ++k) cell.within[k] += part.within[k];
-      cell.count += part.count;
-      if (table.attributes.empty()) continue;
-      for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += table.attributes[parts[i].cell][k];
+  const std::vector<std::size_t> begins = begins_of_cells(parts);
+  size_like(cloud, begins.size() - 1, out);
+  parallel_chunks(begins.size() - 1, 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t at = begin; at < end; ++at) {
+      Cell cell{parts[begins[at]].key, {}, 0};
+      Attributes sums{};
+      for (std::size_t i = begins[at]; i < begins[at + 1]; ++i) {
+        const CellTable& table = tables[parts[i].table];
+        const Cell& part = table.cells[parts[i].cell];
+        for (std::size_t k = 0; k < 3; ++k) cell.within[k] += part.within[k];
+        cell.count += part.count;
+        if (table.attributes.empty()) continue;
+        for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += table.attributes[parts[i].cell][k];
+      }
+      put_mean(grid, cell, sums, scale, at, out);
     }
-    append_mean(cloud, grid, cell, sums, scale, out);
-  }
+  });
   return out;
 }
 
