@@ -156,6 +156,7 @@ std::vector<PoseHypothesis> refine_finely(const PreparedScan& fixed, const Prepa
     return a.contradiction < b.contradiction;
   });
   std::vector<PoseHypothesis> hypotheses;
+  hypotheses.reserve(ranked.size());
   for (const Ranked& one : ranked) hypotheses.push_back(one.hypothesis);
   return distinct_poses(hypotheses);
 }
