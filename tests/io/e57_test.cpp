@@ -195,22 +195,22 @@ TEST(E57, ASectionBelongsToOneScan) {
   EXPECT_THAT(error_of(shared), HasSubstr("is one of an earlier scan too"));
 }
 
-TEST(E57, APoseThatIsNotFiniteIsNamed) {
+/// What the reader says of a scan whose pose holds this translation.
+std::string error_of_translation(const std::string& elements) {
   const TemporaryFolder folder;
   const std::string path = integer_file({250, 2, {1, 2, 3}}, 8, folder.path().string());
-  const std::string bad = with_xml(path, [](std::string& xml) {
-    insert_before(xml, "<points", "<pose><translation><x>nan</x></translation></pose>");
-  });
-  EXPECT_THAT(error_of(bad), HasSubstr("scan 1: pose: expected finite numbers"));
+  return error_of(with_xml(path, [&](std::string& xml) {
+    insert_before(xml, "<points", "<pose><translation>" + elements + "</translation></pose>");
+  }));
+}
+
+TEST(E57, APoseThatIsNotFiniteIsNamed) {
+  EXPECT_THAT(error_of_translation("<x>nan</x>"),
+              HasSubstr("scan 1: pose: expected finite numbers"));
 }
 
 TEST(E57, APoseThatIsNoNumberIsNamed) {
-  const TemporaryFolder folder;
-  const std::string path = integer_file({250, 2, {1, 2, 3}}, 8, folder.path().string());
-  const std::string bad = with_xml(path, [](std::string& xml) {
-    insert_before(xml, "<points", "<pose><translation><x>1</x><y>b</y></translation></pose>");
-  });
-  EXPECT_THAT(error_of(bad), HasSubstr("scan 1: pose: translation y"));
+  EXPECT_THAT(error_of_translation("<x>1</x><y>b</y>"), HasSubstr("scan 1: pose: translation y"));
 }
 
 // The tree would take 25 times the memory of the text.
